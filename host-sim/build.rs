@@ -1,8 +1,8 @@
-//! Puts the scenes that ship into the program, and what its rows of a sweep depend on.
+//! Embeds the shipped scenes and a hash of the sources, part of the key of sweep rows, into the program.
 //!
-//! `scenes/*.toml => OUT_DIR/scenes.rs`: an array of names and texts, by name. `include_dir` would do
-//! it as well but for a scene that is added later: cargo would not hear of it. `sources => DBD_SOURCES`: a hash of
-//! all that computes, in the repository; a published crate's version says as much, and it is empty.
+//! `scenes/*.toml => OUT_DIR/scenes.rs`: an array of names and texts, by name. `include_dir` would not
+//! make cargo detect scenes that are added later. `sources => DBD_SOURCES`: a hash of
+//! all sources that affect results, in the repository; empty in a published crate, whose version suffices.
 
 use std::env;
 use std::fmt::Write as _;
@@ -10,7 +10,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Folders and files of the repository whose sources compute what a row of a sweep holds.
+/// Folders and files of the repository whose sources affect the rows of a sweep.
 const COMPUTING: [&str; 8] = [
     "kernel/src",
     "crates/scene/src",
@@ -23,8 +23,10 @@ const COMPUTING: [&str; 8] = [
 ];
 
 fn main() -> io::Result<()> {
-    let variable = |name| env::var_os(name).ok_or_else(|| io::Error::other("cargo runs this"));
-    // A link to those of the repository, and theirs in what is published.
+    let variable = |name| {
+        env::var_os(name).ok_or_else(|| io::Error::other("this build script must be run by cargo"))
+    };
+    // A link to those of the repository, and a copy in the published crate.
     let folder = Path::new(&variable("CARGO_MANIFEST_DIR")?).join("scenes").canonicalize()?;
     println!("cargo::rerun-if-changed={}", folder.display());
     let mut files = Vec::new();
@@ -39,7 +41,7 @@ fn main() -> io::Result<()> {
         let _ = writeln!(text, "    ({name:?}, include_str!({:?})),", file.to_string_lossy());
     }
     let source =
-        format!("/// Names and texts of the scenes that ship.\npub static SCENES: {text}];\n");
+        format!("/// Names and texts of the shipped scenes.\npub static SCENES: {text}];\n");
     fs::write(Path::new(&variable("OUT_DIR")?).join("scenes.rs"), source)?;
     println!(
         "cargo::rustc-env=DBD_SOURCES={}",
@@ -48,7 +50,7 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// FNV-1a 64 of all sources that compute; empty outside of the repository.
+/// FNV-1a 64 of all sources that affect results; empty outside the repository.
 fn sources(own: &Path) -> io::Result<String> {
     let Some(root) = own.parent().filter(|root| root.join("kernel/src/lib.rs").exists()) else {
         return Ok(String::new());

@@ -6,34 +6,33 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 use dbd_plant::Named;
 
-/// Takes a choice by its name; what it is shows in the help.
+/// Parses a choice by its name; the help describes each choice.
 pub fn names<N: Named + Send + Sync>() -> impl TypedValueParser<Value = N> {
     let values =
         N::ALL.iter().map(|choice| PossibleValue::new(choice.name()).help(choice.summary()));
-    PossibleValuesParser::new(values)
-        .try_map(|name| N::of_name(&name).ok_or("there is no such name"))
+    PossibleValuesParser::new(values).try_map(|name| N::of_name(&name).ok_or("unknown name"))
 }
 
-/// What names a scene.
+/// The argument that names a scene.
 #[derive(Clone, Debug, Args)]
 pub struct SceneArgument {
     /// A scene by name (see list), a path to a .toml file, or - for standard input
     #[arg(value_hint = ValueHint::FilePath)]
     pub scene: String,
-    /// Changes one value of the scene by its path, as often as wanted; * and ? stand for letters of a
+    /// Set one value of the scene by its path; may be repeated; * and ? match characters of a
     /// name: body.cart.mass=1.2, joint.*.stiffness=1e6, step=20us
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
-    /// Three freedoms per body in the scene's plane, as --set planar=true; refused where anything leaves it
+    /// Use three degrees of freedom per body, as --set planar=true; an error if the scene is not planar
     #[arg(long)]
     pub planar: bool,
-    /// Starts where the scene rests under its loads, as --set settle=true
+    /// Start in the static equilibrium under the loads, as --set settle=true
     #[arg(long)]
     pub settle: bool,
 }
 
 impl SceneArgument {
-    /// The same for a command that brings the scene to rest itself.
+    /// The same for a command that settles the scene itself.
     #[must_use]
     pub fn unsettled(&self) -> Self {
         let mut set = self.set.clone();

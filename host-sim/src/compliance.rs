@@ -1,44 +1,44 @@
-//! How far joints give way under the forces at t = 0, before anything has run.
+//! Deflections of joints under the forces at t = 0, before a run.
 //!
 //! `scene => per joint the longest stretch`. The pose at t = 0, at rest: M·a = Q − Jᵀ·K·J·u, with J
-//! the directions of the joints' elements, K their stiffnesses and u how far the bodies give way. In
-//! what the joints hold, a is 0: u = M^(−½)·A⁺·M^(−½)·Q with A = M^(−½)·Jᵀ·K·J·M^(−½), by the eigenvectors
-//! of A. What is soft against the joints themselves counts as free. A joint that starts at free length
-//! swings up to twice as far. No statement of what loads, inputs and motion do later.
+//! the directions of the joints' elements, K their stiffnesses and u the displacements of the bodies. In the
+//! directions constrained by joints, a is 0: u = M^(−½)·A⁺·M^(−½)·Q with A = M^(−½)·Jᵀ·K·J·M^(−½), by the eigenvectors
+//! of A. Elements much softer than the joints count as free. A joint that starts at free length
+//! overshoots up to twice as far. Later loads, inputs and motion are not included.
 
 use dbd_kernel::{State, Vec3};
 use dbd_scene::{JointElement, Scene};
 use dbd_study::modes::weighted_forces;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// More bodies are not looked at: the time grows with the third power.
+/// Largest number of bodies: the time grows with the third power.
 const MOST_BODIES: usize = 60;
 
-/// Modes below this share of the softest joint's frequency are motions that springs, and not joints,
-/// resist, or rubber that is meant to give way.
+/// Modes below this fraction of the softest joint's frequency are motions resisted by springs, not joints,
+/// or by intentionally soft rubber.
 const SOFT: f64 = 0.05;
 
-/// How far a joint gives way.
+/// The deflection of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// The row of the joint.
     pub joint: usize,
-    /// \[m\] of its element that is stretched most.
+    /// \[m\] the extension of its most extended element.
     pub extension: f64,
     /// \[m\] that element's free length.
     pub free_length: f64,
 }
 
 impl Stretch {
-    /// The extension as a share of the free length.
+    /// The extension as a fraction of the free length.
     #[must_use]
     pub fn share(&self) -> f64 {
         self.extension / self.free_length
     }
 }
 
-/// How far the joints give way, in scene order, without those that have no length; nothing where
-/// the bodies are too many.
+/// The deflections of the joints, in scene order, without those of no length; empty for
+/// too many bodies.
 #[must_use]
 pub fn stretches(scene: &Scene) -> Vec<Stretch> {
     let bodies = scene.model.bodies.len();
@@ -131,14 +131,14 @@ mod tests {
         let [hook] = stretches(&scene)[..] else { panic!() };
         assert!((hook.extension - 4.0 * 10.0 / 2e4 * steepest).abs() < 1e-12, "{hook:?}");
         assert_eq!((hook.joint, hook.free_length), (0, 0.03));
-        // A stop that is pressed by 4 mm carries 40 N in its place.
+        // A stop compressed by 4 mm carries 40 N instead.
         let held = format!(
             "{text}[[interaction]]\nlaw = \"end-stop\"\nbetween = [\"world\", \"bob\"]\n\
              points = [[0, 0, -0.496], [0, 0, 0]]\nnormal = [0, 0, 1]\nstiffness = 1e4\ndissipation = 0\n"
         );
         let [hook] = stretches(&Scene::parse(&held, "held.toml").unwrap())[..] else { panic!() };
         assert!(hook.extension < 1e-12, "{hook:?}");
-        // Levelled it falls at first: the joint holds m·g·I/(I + m·r²) = 1/11 of it.
+        // Horizontal, it falls at first: the joint carries m·g·I/(I + m·r²) = 1/11 of the weight.
         let level = text
             .replace("position = [0, 0, -0.5]", "position = [-0.5, 0, 0]")
             .replace("[0.1, 0.2, 0.3]", "[0.1, 0.1, 0.1]");

@@ -1,4 +1,4 @@
-//! What ends a command early, and the exit code it ends with.
+//! Errors of commands, and their exit codes.
 
 use dbd_fmu::ArchiveError;
 use dbd_plant::instance::InstanceError;
@@ -32,18 +32,18 @@ use crate::commands::write::WriteError;
 use crate::terminal::console::OutputError;
 use crate::terminal::{Exit, LoadError};
 
-/// Why a command could not do its work.
+/// Why a command failed.
 #[derive(Debug, Error, Diagnostic)]
 pub enum Error {
     /// The scene could not be loaded.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Load(#[from] LoadError),
-    /// There is no such method, or this build does not hold it.
+    /// The method is unknown, or not part of this build.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Method(#[from] MethodError),
-    /// The precision cannot hold what an input is given.
+    /// The precision cannot represent an input's value.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plant(#[from] PlantError),
@@ -51,19 +51,19 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Export(#[from] ExportError),
-    /// There is no FMU.
+    /// No FMU was written.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Fmu(#[from] FmuError),
-    /// There is no linear system.
+    /// The scene was not linearised.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Linearise(#[from] LineariseError),
-    /// A line to a microcontroller did not do its work.
+    /// Hardware in the loop failed.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Hil(#[from] HilError),
-    /// There is no page in which a scene runs.
+    /// No live page was written.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Play(#[from] PlayError),
@@ -71,11 +71,11 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Import(#[from] ImportError),
-    /// There is no picture.
+    /// No picture was written.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Picture(#[from] PictureError),
-    /// There is no new project or scene.
+    /// No new project or scene was written.
     #[error(transparent)]
     #[diagnostic(transparent)]
     New(#[from] NewError),
@@ -83,15 +83,15 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     LongForm(#[from] WriteError),
-    /// There are no modes, or they were not written.
+    /// The modes were not computed or not written.
     #[error(transparent)]
     #[diagnostic(transparent)]
     ModeTable(#[from] ModeTableError),
-    /// A scene was not brought to rest.
+    /// A scene was not settled.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Relax(#[from] RelaxError),
-    /// A scene is not watched.
+    /// A scene cannot be watched.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Watch(#[from] WatchError),
@@ -99,27 +99,27 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Run(#[from] RunError),
-    /// A survey was refused, or its results could not be written.
+    /// A trade-off study was refused, or its results could not be written.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Trade(#[from] TradeError),
-    /// Joints cannot be ideal.
+    /// Ideal joints are not reached.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Ideal(#[from] IdealError),
-    /// What advice is asked for cannot be read.
+    /// An argument of `advise` is invalid.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Asked(#[from] AskedError),
-    /// There is no advice.
+    /// No recommendation was found.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Advise(#[from] AdviseError),
-    /// The paper's results could not be measured again, or not be written.
+    /// The paper's results could not be reproduced or not be written.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Reproduce(#[from] ReproduceError),
-    /// A sweep was refused, or not brought to its end.
+    /// A sweep was refused, or did not complete.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Sweep(#[from] SweepError),
@@ -127,7 +127,7 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Compare(#[from] CompareRefusal),
-    /// Standard output does not take the results.
+    /// The results cannot be written to standard output.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Output(#[from] OutputError),

@@ -1,23 +1,23 @@
-//! Runs Discrete Body Dynamics scenes on a PC: the command line `host-sim` and what it is made of.
+//! Runs Discrete Body Dynamics scenes on a PC: the command line `host-sim` and its parts.
 //!
-//! `scene → model → step → trace → report`. What steps is `dbd-plant`. The modules in the order in
-//! which they stand on each other, each on those before it alone:
+//! `scene → model → step → trace → report`. `dbd-plant` does the stepping. The modules in
+//! dependency order, each depending only on those before it:
 //!
 //! - [`terminal`]: scenes by name, text out, exit codes.
-//! - [`simulate`]: a planned run, sample by sample; where one failed and which step works.
-//! - [`compliance`]: how far joints give way under the forces at t = 0.
-//! - [`report`]: what is left of a run: trace, summary, page.
-//! - [`recorded`]: runs that were recorded, read back.
-//! - [`comparison`]: two of them beside each other.
+//! - [`simulate`]: a planned run, sample by sample.
+//! - [`compliance`]: deflections of joints under the forces at t = 0.
+//! - [`report`]: the results of a run: trace, summary, page.
+//! - [`recorded`]: recorded runs, read back.
+//! - [`comparison`]: comparison of two of them.
 //! - [`help`]: the examples in the help of each command.
-//! - [`arguments`]: what several commands take.
+//! - [`arguments`]: arguments shared by several commands.
 //! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `reproduce`, `export`, `fmu`, `hil`, `import`, `new`, `completions`.
-//! - [`error`]: what ends a command early.
+//! - [`error`]: errors of commands.
 //! - [`cli`]: arguments in, exit code out.
-//! - [`program`]: the command line as a program of a user's own, with laws of their own.
+//! - [`program`]: the command line as a custom program with custom laws.
 //!
-//! The feature `comparison` brings methods that are there for comparison only, see `dbd-plant`; `lanes` steps
-//! alike cases of a sweep in lockstep; `parquet` writes the table of a sweep as a Parquet file, too.
+//! The feature `comparison` adds methods for comparison only, see `dbd-plant`; `lanes` steps
+//! similar cases of a sweep in lockstep; `parquet` also writes the table of a sweep as a Parquet file.
 
 pub mod arguments;
 pub mod cli;

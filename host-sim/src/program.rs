@@ -1,4 +1,4 @@
-//! The whole command line as a program of a user's own, with laws of their own.
+//! The whole command line as a custom program with custom laws.
 //!
 //! `laws => exit code`.
 
@@ -12,7 +12,7 @@ use crate::cli::main_with;
 use crate::terminal::interrupt::clean_up_on_signals;
 use crate::terminal::{Console, Look};
 
-/// The command line `host-sim`, which may know more laws than this crate.
+/// The command line `host-sim`, with further laws.
 ///
 /// ```no_run
 /// fn main() -> std::process::ExitCode {
@@ -24,28 +24,28 @@ use crate::terminal::{Console, Look};
 pub struct Program(());
 
 impl Program {
-    /// The command line as it is.
+    /// The unmodified command line.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Makes a law known to scenes by its name; exported source names its type by the path of its module.
+    /// Registers a law under its name; exported source names its type by the path of its module.
     pub fn law<L: Law>(self) -> Self {
         self.law_at::<L>(L::PATH)
     }
 
-    /// [`Self::law`] whose type exported source names by another path, where its module is private:
+    /// [`Self::law`] with another path for the type in exported source, e.g. if its module is private:
     /// `law_at::<my_laws::Drag>("my_laws::Drag")`.
     pub fn law_at<L: Law>(self, path: &str) -> Self {
         dbd_scene::laws::register::<L>(path);
         self
     }
 
-    /// Runs what the arguments say.
+    /// Runs the command given by the arguments.
     #[must_use]
     pub fn run(self) -> ExitCode {
         clean_up_on_signals();
-        // What comes here is plain where it ought to be; consoles that know no colours are taught them.
+        // The text has no colour codes unless wanted; consoles without support for them are configured.
         let mut out = AutoStream::always(io::stdout());
         let mut err = AutoStream::always(io::stderr());
         let mut console = Console {

@@ -267,7 +267,7 @@ fn a_golden_file_is_blessed_by_the_environment() {
     assert!(code == Some(2) && said.contains("without --golden-band"), "{said}");
     let (code, said) = run(&[bless, ("CI", "false")], &["--quiet"]);
     assert_eq!(code, Some(0), "{said}");
-    assert!(said.contains("note: blessed: ball.golden is written anew"), "{said}");
+    assert!(said.contains("note: blessed: ball.golden is rewritten"), "{said}");
     assert!(fs::read_to_string(&file).unwrap().lines().count() == 12 + 11 + 1);
     assert_eq!(run(&[], &[]), (Some(0), String::new()));
 }
@@ -328,12 +328,12 @@ fn a_watched_scene_is_checked_at_each_save() {
     assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
     assert_eq!(child.wait().unwrap().signal(), Some(2));
     for (arguments, said) in [
-        (&["check", "four-bar", "--watch"][..], "no file that could change"),
-        (&["check", "-", "--watch"], "no file that could change"),
+        (&["check", "four-bar", "--watch"][..], "--watch needs a scene file"),
+        (&["check", "-", "--watch"], "--watch needs a scene file"),
         (&["check", "four-baa", "--watch"], "did you mean four-bar?"),
         (&["check", "none.toml", "--watch"], "none.toml"),
-        (&["check", "ball.toml", "--watch", "--svg", "-"], "something else"),
-        (&["check", "ball.toml", "--watch", "--write", "./ball.toml"], "is the scene"),
+        (&["check", "ball.toml", "--watch", "--svg", "-"], "both write to standard output"),
+        (&["check", "ball.toml", "--watch", "--write", "./ball.toml"], "the watched scene"),
     ] {
         let done = call(here.path(), arguments);
         assert_eq!(done.status.code(), Some(2), "{arguments:?}");

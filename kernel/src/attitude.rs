@@ -1,7 +1,7 @@
-//! How an orientation is stored and turned, apart from where its body is.
+//! How an orientation is stored and rotated, independent of the body's position.
 //!
-//! `(stored, turn) => stored; stored => rotation matrix`. A way of storing is one type: the unit
-//! [`Quaternion`] and, in the plane, [`Heading`] here, Euler angles in [`crate::euler`].
+//! `(stored, rotation) => stored; stored => rotation matrix`. Each storage form is a type: the unit [`Quaternion`] and,
+//! in the plane, [`Heading`] here, Euler angles in [`crate::euler`].
 
 use core::fmt::Debug;
 
@@ -15,7 +15,7 @@ use crate::words::Words;
 pub trait Attitude: Copy + Debug + Default + PartialEq + Send + Words + 'static {
     /// The number in which rotations are computed.
     type Real: Real;
-    /// How one orientation stands to another.
+    /// A relative orientation.
     type Turn: Turn<Real = Self::Real>;
 
     /// The name users give: `quaternion`.
@@ -25,9 +25,9 @@ pub trait Attitude: Copy + Debug + Default + PartialEq + Send + Words + 'static 
     fn rotation(&self) -> Rotation<Self::Real>;
     /// The unit quaternion.
     fn quaternion(&self) -> Quaternion<Self::Real>;
-    /// The turn from the world's axes.
+    /// The rotation from the world's axes.
     fn since_world(&self) -> Self::Turn;
-    /// Composes with a turn given in body axes: `q ← q ∘ turn`.
+    /// Composes with a rotation given in body axes: `q ← q ∘ turn`.
     fn turn(&mut self, turn: Quaternion<Self::Real>);
     /// [`Self::turn`] about body axis `AXIS`, 0 to 2, by cosine and sine of half the angle.
     #[inline(always)]
@@ -36,13 +36,12 @@ pub trait Attitude: Copy + Debug + Default + PartialEq + Send + Words + 'static 
         v[AXIS] = sin;
         self.turn(Quaternion { w: cos, v: Vec3::new(v[0], v[1], v[2]) });
     }
-    /// Takes `start` back in lanes where `resting` holds. For one lane its caller makes sure that it
-    /// does not hold.
+    /// Restores `start` in the lanes selected by `resting`. With one lane the caller ensures that it is not selected.
     #[inline(always)]
     fn keep(&mut self, _resting: <Self::Real as Real>::Truth, _start: &Self) {}
-    /// Restores unit length, or the range of angles, after the turns of a step.
+    /// Restores unit length, or the range of angles, after the rotations of a step.
     fn renormalise(&mut self);
-    /// Whether a turn was none that can be stored: what is left is no orientation.
+    /// Whether a rotation was not representable; the stored value is then not an orientation.
     #[inline(always)]
     fn is_lost(&self) -> bool {
         false
@@ -124,7 +123,7 @@ impl<R: Real> Attitude for Heading<R> {
     fn since_world(&self) -> Self {
         *self
     }
-    /// Of the turn only what is about z.
+    /// Uses only the component about z.
     #[inline(always)]
     fn turn(&mut self, turn: Quaternion<R>) {
         *self = self.product(Heading::new(turn.w, turn.v.z));

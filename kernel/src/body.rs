@@ -1,7 +1,7 @@
 //! One rigid body: its constants, and its state in the words that are stored.
 //!
-//! `mass, inertia => Body`, whose derived constants are rounded once each; `BodyState` is plain
-//! data, the only words of a body that hash and snapshot see.
+//! `mass, inertia => Body`, whose derived constants are rounded once each; `BodyState` is plain data, the only data of
+//! a body in hashes and snapshots.
 
 use crate::attitude::Attitude as _;
 use crate::fixed::{Fixed, FixedPlace, FixedTurn, FixedVelocity};
@@ -24,7 +24,7 @@ pub struct Body<S: Space> {
     pub inverse_mass: S::Real,
     /// \[1/(kg·m²)\] inverse inertia.
     pub inverse_inertia: S::Moment,
-    /// \[1\] (Iz/Iy, Ix/Iz, Iy/Ix): how a rotation about x, y, z carries the next axis' rate over.
+    /// \[1\] (Iz/Iy, Ix/Iz, Iy/Ix): factors of the gyroscopic coupling between the axes' rates.
     pub ratio: S::Moment,
     /// \[1\] (Iy/Iz, Iz/Ix, Ix/Iy).
     pub inverse_ratio: S::Moment,
@@ -44,7 +44,7 @@ impl<S: Space> Body<S> {
         }
     }
 
-    /// The same body in another precision: the stored mass and inertia, all else derived anew.
+    /// The same body in another precision: the stored mass and inertia are converted, the rest is derived again.
     pub fn convert<Q: Space>(&self) -> Body<Q> {
         Body::from_f64(self.mass.to_f64(), self.inertia.to_f64())
     }
@@ -59,8 +59,8 @@ pub struct Increment<S: Space> {
     pub angular: S::Moment,
 }
 
-/// ½·h·D⁻¹ of one body: half the step over its mass and its principal inertias. Half, for most kicks
-/// are halves: of them no factor is left.
+/// ½·h·D⁻¹ of one body: half the step over its mass and its principal inertias. Most kicks are half kicks and then need
+/// no further factor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Diagonal<S: Space> {
     /// \[s/kg\].
@@ -150,7 +150,7 @@ impl<P: Geometry> Words for BodyState<P> {
     }
 }
 
-/// What a constant is made with: a function for any precision is none that a constant may call.
+/// Constructors for constants: a generic function cannot be called in a `const`.
 macro_rules! constants {
     ($real:ident, $space:ty, $precision:ident) => {
         constants!(@ $real, $space, $precision,
@@ -243,7 +243,7 @@ constants!(f32, Plane<f32>, Planar32);
 mod tests {
     use super::*;
 
-    /// What one precision's constants are, and what the function for all makes of the same numbers.
+    /// Compares the constants of a precision with the results of the generic function.
     macro_rules! same_bits {
         ($space:ty, $precision:ident) => {{
             const INERTIA: [f64; 3] = [0.08333, 0.00083, 0.1];

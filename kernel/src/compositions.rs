@@ -1,17 +1,16 @@
-//! Symmetric compositions of drifts and kicks: the coefficients, and what they must fulfil.
+//! Symmetric compositions of drifts and kicks: the coefficients and their order conditions.
 //!
-//! A composition of order four splits a flow into two parts A and B, `A(a₁) B(b₁) A(a₂) …`: a step
-//! into drifts and kicks, a free rotor into turns about two axes. Coefficients are parts of a step;
-//! some are negative.
+//! A composition of order four splits a flow into two parts A and B, `A(a₁) B(b₁) A(a₂) …`: a step into drifts and
+//! kicks, a free rotor into rotations about two axes. Coefficients are fractions of a step; some are negative.
 
 use crate::real::Constant;
 
-/// Parts of a step: one drift more than kicks, first and last a drift.
+/// Fractions of a step: one drift more than kicks, beginning and ending with a drift.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Composition {
-    /// Parts by which the drifts go.
+    /// Fractions of the drifts.
     pub(crate) drifts: &'static [Constant],
-    /// Parts by which the kicks go.
+    /// Fractions of the kicks.
     pub(crate) kicks: &'static [Constant],
 }
 
@@ -59,8 +58,8 @@ pub(crate) const BLANES_MOAN_S6: Composition = Composition {
 mod tests {
     use super::*;
 
-    /// The parts add up to a step, and the two conditions of third order hold; those of second and
-    /// fourth follow from symmetry.
+    /// The fractions add up to a step, and the two conditions of third order are fulfilled; those of second and fourth
+    /// order follow from symmetry.
     #[test]
     fn the_coefficients_fulfil_the_conditions_of_order_four() {
         for composition in [PEFRL, BLANES_MOAN_S6] {

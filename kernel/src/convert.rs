@@ -27,7 +27,7 @@ impl<R: Real + nalgebra::Scalar> From<nalgebra::Quaternion<R>> for Quaternion<R>
     }
 }
 
-/// The quaternion is taken as it is: unit where it is an orientation.
+/// The quaternion is not normalised: it is a unit quaternion where it is an orientation.
 impl<R: Real + nalgebra::RealField> From<Quaternion<R>> for nalgebra::UnitQuaternion<R> {
     fn from(q: Quaternion<R>) -> Self {
         nalgebra::Unit::new_unchecked(q.into())

@@ -1,8 +1,8 @@
 //! The energy of a state, by kind.
 //!
-//! `(model, state) => energies`, in the model's precision. To judge a run, convert model and state
-//! to double precision first: the stored words are then taken as exact, whatever precision
-//! stepped them. Sums run in ascending order of bodies, groups, springs and loads.
+//! `(model, state) => energies`, in the model's precision. To evaluate a run, convert model and state to double
+//! precision first: the stored numbers are then taken as exact, whatever precision stepped them. Sums run in ascending
+//! order of bodies, groups, springs and loads.
 
 use crate::elements::element::Element;
 use crate::elements::gravity;
@@ -25,7 +25,7 @@ pub struct Energy<R> {
     pub gravity: R,
     /// \[J\] TSDAs.
     pub tsda: R,
-    /// \[J\] bushings, those of joints too.
+    /// \[J\] bushings, including those of joints.
     pub bushing: R,
     /// \[J\] points on lines.
     pub line: R,
@@ -33,32 +33,32 @@ pub struct Energy<R> {
     pub torsion: R,
     /// \[J\] laws, see [`crate::laws`].
     pub law: R,
-    /// \[J\] `−F·x` of world-frame force loads while they act. Not part of the potential energy: it
-    /// appears and vanishes with a load's window, and its zero is where the world's origin is. While a
-    /// load acts, its work is minus the change of this.
+    /// \[J\] `−F·x` of world-frame force loads while they act. Not part of the potential energy: it appears and
+    /// vanishes with a load's window, and its zero is at the world's origin. While a load acts, its work is minus the
+    /// change of this.
     pub load: R,
 }
 
 impl<R: Real> Energy<R> {
-    /// The energy of gravity and springs, which is a function of the pose alone.
+    /// The energy of gravity and springs, a function of the pose only.
     pub fn potential(&self) -> R {
         self.gravity + self.tsda + self.bushing + self.line + self.torsion + self.law
     }
 
-    /// Kinetic and potential energy: continuous where a load begins or ends, as loads, inputs and
-    /// dampers change it by their work alone.
+    /// Kinetic and potential energy: continuous at the start and end of a load, as loads, inputs and dampers change it
+    /// only by their work.
     pub fn total(&self) -> R {
         self.kinetic + self.potential()
     }
 }
 
-/// The energies of a state, loads as they act at its time for steps of `step_size` \[s\]. A
-/// torsion spring whose twist is undefined counts 0.
+/// The energies of a state, with loads active at its time for steps of `step_size` \[s\]. A torsion spring whose
+/// torsion angle is undefined counts 0.
 pub fn energy<M: ModelOwner>(model: &M, state: &State<M>, step_size: f64) -> Energy<RealOf<M>> {
     energy_with_extensions(model, state, step_size, |_, _| {})
 }
 
-/// The same, and on the way what [`each_extension`] visits: each element is placed once for both.
+/// [`energy()`], and a visit as in [`each_extension`]: the points of each element are computed once for both.
 pub fn energy_with_extensions<M: ModelOwner>(
     model: &M,
     state: &State<M>,
@@ -117,7 +117,8 @@ pub fn energy_with_extensions<M: ModelOwner>(
     sum
 }
 
-/// \[J\] the energy of the laws whose memory is no freedom of their own: what a memory's change takes from it is lost.
+/// \[J\] the energy of the laws whose memory is not a degree of freedom: energy removed by a change of memory is
+/// dissipated.
 pub fn of_memories<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
     let (view, bodies) = (model.view(), state.bodies.as_ref());
     let mut frames = model.per_body(FrameOf::<M>::default());

@@ -1,6 +1,6 @@
-//! Whether a model lies within what a precision of fixed point stores.
+//! Checks a model against the range of the fixed-point precision.
 //!
-//! `(model, initial states, step) => the first part beyond a limit`. Numbers that float have no limits.
+//! `(model, initial states, step) => the first part beyond a limit`. Floating-point precisions have no limits.
 
 use crate::body::BodyState;
 use crate::elements::input::InputKind;
@@ -9,19 +9,19 @@ use crate::index::{BodyIndex, InputIndex};
 use crate::model::{Group, ModelRef, Terms};
 use crate::real::Real as _;
 
-/// A part of a model that a precision cannot hold.
+/// A part of a model beyond the range of a precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Excess {
-    /// Which part.
+    /// The part.
     pub part: Part,
-    /// \[m\] how far it goes.
+    /// \[m\] its distance or displacement.
     pub value: f64,
-    /// \[m\] how far it may go.
+    /// \[m\] the largest allowed value.
     pub limit: f64,
 }
 
-/// What may go too far.
+/// The parts with a limited range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Part {
@@ -31,7 +31,7 @@ pub enum Part {
     Point {
         /// The body.
         body: BodyIndex,
-        /// The point's group; none where it is that of an input.
+        /// The point's group; none for the point of an input.
         group: Option<u16>,
     },
     /// A point of the ground, from the origin, along an axis.
@@ -39,7 +39,7 @@ pub enum Part {
         /// The point's group.
         group: u16,
     },
-    /// This body in a step, at its initial velocity.
+    /// This body in one step, at its initial velocity.
     Drift(BodyIndex),
     /// The ground that this input moves.
     Signal(InputIndex),
@@ -49,20 +49,20 @@ impl core::fmt::Display for Excess {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let Self { part, value, limit } = self;
         match part {
-            Part::Body(body) => write!(f, "body {} lies {value} m from the origin", body.0)?,
+            Part::Body(body) => write!(f, "body {} is {value} m from the origin", body.0)?,
             Part::Point { body, .. } => {
-                write!(f, "a point of body {} lies {value} m from its centre of mass", body.0)?;
+                write!(f, "a point of body {} is {value} m from its centre of mass", body.0)?;
             }
-            Part::Ground { .. } => write!(f, "a point of the ground lies {value} m away")?,
+            Part::Ground { .. } => write!(f, "a point of the ground is {value} m from the origin")?,
             Part::Drift(body) => write!(f, "body {} moves {value} m in a step", body.0)?,
             Part::Signal(input) => write!(f, "input {} moves the ground by {value} m", input.0)?,
         }
-        write!(f, ", fixed-point numbers hold {limit} m")
+        write!(f, ", beyond the fixed-point limit of {limit} m")
     }
 }
 
-/// The first part of a model, with steps of `step` \[s\], that the precision `P` cannot hold: bodies, then
-/// groups, then inputs. The numbers are those of the model, rounded to it or not.
+/// The first part of a model, with steps of `step` \[s\], beyond the range of the precision `P`: bodies, then groups,
+/// then inputs. The values are those of the model in its own precision `Q`.
 pub fn first_excess<P: Geometry, Q: Geometry, T: Terms<Q>>(
     model: &ModelRef<'_, Q, T>,
     initial: &[BodyState<Q>],
@@ -120,7 +120,7 @@ pub fn first_excess<P: Geometry, Q: Geometry, T: Terms<Q>>(
     None
 }
 
-/// Point `i` of a group where it is beyond its limit.
+/// Point `i` of a group if it is beyond its limit.
 fn out_of_reach<Q: Geometry>(
     limits: &Limits,
     group: &Group,
@@ -138,7 +138,7 @@ fn out_of_reach<Q: Geometry>(
 }
 
 fn beyond(part: Part, value: f64, limit: f64) -> Option<Excess> {
-    // What is no number is within no limit.
+    // NaN is beyond every limit.
     if value <= limit { None } else { Some(Excess { part, value, limit }) }
 }
 

@@ -1,7 +1,7 @@
-//! What a state belongs to, in a word: fingerprints of models and schemes.
+//! Fingerprints of models and schemes, which identify what a state belongs to.
 //!
-//! `constants in the order of their fields => FNV-1a 64`. A plant refuses a state whose fingerprint is not
-//! its own; a recorded run names the model that it was made with.
+//! `constants in the order of their fields => FNV-1a 64`. A plant refuses a state with another fingerprint; a recorded
+//! run stores that of its model.
 
 use core::ops::Deref;
 
@@ -29,8 +29,7 @@ where
     H: Deref<Target: ModelOwner + Sized>,
     S: Scheme,
 {
-    /// FNV-1a 64 over the model's constants and initial state, its precision and the step: what a
-    /// state belongs to.
+    /// FNV-1a 64 over the model's constants and initial state, its precision and the step: what a state belongs to.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         self.base.fingerprint()
@@ -41,7 +40,7 @@ impl<H> Base<H>
 where
     H: Deref<Target: ModelOwner + Sized>,
 {
-    /// Of model, precision and step.
+    /// The fingerprint of model, precision and step.
     pub(crate) fn fingerprint(&self) -> u64 {
         let mut hash = Fnv1a::new();
         for byte in <H::Target as ModelOwner>::Precision::NAME.bytes() {
@@ -60,8 +59,8 @@ where
     }
 }
 
-/// FNV-1a 64 over the scheme's name, its way of damping, its evaluations per step, which tell its
-/// Newton iterations, and its other parameters, folded to 32 bits.
+/// FNV-1a 64 over the scheme's name, its damping method, its evaluations per step, which identify its Newton
+/// iterations, and its other parameters, folded to 32 bits.
 pub(crate) fn scheme_fingerprint<S: Scheme>(scheme: &S) -> u32 {
     let mut hash = Fnv1a::new();
     for byte in S::NAME.bytes().chain(S::DAMPING.name().bytes()) {
@@ -73,8 +72,8 @@ pub(crate) fn scheme_fingerprint<S: Scheme>(scheme: &S) -> u32 {
     (hash >> 32) as u32 ^ hash as u32
 }
 
-/// FNV-1a 64 over a model's constants, each number rounded to single precision: the same for a scene in
-/// every precision, whatever the scheme, the step and the initial state.
+/// FNV-1a 64 over a model's constants, each number rounded to single precision: the same for a scene in every
+/// precision, independent of the scheme, the step and the initial state.
 #[must_use]
 pub fn model_hash<M: ModelOwner>(model: &M) -> u64 {
     let mut hash = Singles(Fnv1a::new());
@@ -150,7 +149,7 @@ fn visit_model<P: Geometry, T: Terms<P>>(
     for load in *loads {
         integer(u64::from(load.body.0) << 1 | load.frame as u64);
     }
-    // All else of a body is derived from these two.
+    // All other constants of a body are derived from these two.
     for Body { mass, inertia, .. } in *bodies {
         visitor.word(mass.word());
         inertia.visit(visitor);
@@ -166,7 +165,7 @@ fn visit_model<P: Geometry, T: Terms<P>>(
     }
     dampers.iter().chain(*clearances).for_each(|number| visitor.word(number.word()));
     for spring in *torsions {
-        // Bodies and damper stand above.
+        // Bodies and damper are included above.
         let TorsionSpring { a: _, b: _, damper: _, axis, reference, stiffness, preload } = spring;
         axis.visit(visitor);
         reference.visit(visitor);
@@ -174,7 +173,7 @@ fn visit_model<P: Geometry, T: Terms<P>>(
         visitor.word(preload.word());
     }
     for load in *loads {
-        // Body and frame stand above.
+        // Body and frame are included above.
         let Load { body: _, frame: _, force, torque, from, until } = load;
         force.visit(visitor);
         torque.visit(visitor);
@@ -192,7 +191,7 @@ fn visit_model<P: Geometry, T: Terms<P>>(
         visitor.word(value.word());
         visitor.word(slope.word());
     }
-    // They came after the others: a model without them keeps its hash.
+    // Added later, after the others: a model without them keeps its hash.
     for Revolute { stiffness, along, levers } in *revolutes {
         visitor.word(stiffness.word());
         visitor.word(along.word());
@@ -279,7 +278,7 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
     }
     visitor.word(value.word());
     visitor.word(Word::U64(u64::from(*knot) << 16 | u64::from(*knots)));
-    // Without bounds it has the words that it had before there were any.
+    // Omitted without bounds, so that the hash is that from before bounds existed.
     if range.iter().any(|bound| bound.is_finite()) {
         range.iter().for_each(|bound| visitor.word(bound.word()));
     }

@@ -19,7 +19,7 @@ use crate::schemes::Scheme;
 use crate::space::{Linear as _, Space, Turn as _};
 use crate::state::State;
 
-/// Formats a type of a space by its fields, each as a way to show it.
+/// Formats a type of a space by its fields, each with a function that converts it.
 macro_rules! of_a_space {
     ($($name:ident, $text:literal: $value:ident => $($shown:expr),+;)*) => {
         $(impl<S: Space> Format for $name<S> {

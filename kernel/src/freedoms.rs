@@ -1,17 +1,17 @@
-//! The freedoms of one body: rows of as many numbers, square blocks of rows, and their algebra.
+//! The degrees of freedom of one body: rows with one number each, square blocks of rows, and their algebra.
 //!
-//! `block => factor L·D·Lᵀ; row, factor => solution`. A block on the diagonal is symmetric: of it the
-//! lower triangle counts. Sums run over the columns in ascending order.
+//! `block => factor L·D·Lᵀ; row, factor => solution`. A diagonal block is symmetric: only its lower triangle is used.
+//! Sums run over the columns in ascending order.
 
 use core::fmt::Debug;
 
 use crate::real::Real;
 
-/// As many numbers as a body has freedoms: six in space, three in the plane.
+/// One number per degree of freedom of a body: six in space, three in the plane.
 pub trait Freedoms: Copy + Debug + Send + 'static {
     /// The number.
     type Real: Real;
-    /// One row per freedom.
+    /// One row per degree of freedom.
     type Block: Copy + Debug + Send;
 
     /// The row of zeros.
@@ -23,7 +23,7 @@ pub trait Freedoms: Copy + Debug + Send + 'static {
     fn add_square(&self, weight: Self::Real, block: &mut Self::Block);
     /// Adds `weight·self·otherᵀ` to a block.
     fn add_product(&self, weight: Self::Real, other: &Self, block: &mut Self::Block);
-    /// Whether the lower triangles of two blocks are no farther apart than `least` anywhere.
+    /// Whether the lower triangles of two blocks differ by at most `least` in every entry.
     fn are_near(a: &Self::Block, b: &Self::Block, least: Self::Real) -> bool;
     /// Writes the factor over a symmetric block: L below the diagonal, D⁻¹ on it. `false` where a pivot
     /// is not positive.
@@ -38,13 +38,13 @@ pub trait Freedoms: Copy + Debug + Send + 'static {
     fn forward_block(block: &mut Self::Block, factor: &Self::Block);
     /// `block·D⁻¹`.
     fn divided(block: &Self::Block, factor: &Self::Block) -> Self::Block;
-    /// Takes `a·bᵀ` from a block.
+    /// Subtracts `a·bᵀ` from a block.
     fn reduce(block: &mut Self::Block, a: &Self::Block, b: &Self::Block);
-    /// Takes `a·bᵀ`, which is symmetric, from the lower triangle of a block.
+    /// Subtracts `a·bᵀ`, which is symmetric, from the lower triangle of a block.
     fn reduce_square(block: &mut Self::Block, a: &Self::Block, b: &Self::Block);
-    /// Takes `block·other` from the row.
+    /// Subtracts `block·other` from the row.
     fn reduce_by(&mut self, block: &Self::Block, other: &Self);
-    /// Takes `blockᵀ·other` from the row.
+    /// Subtracts `blockᵀ·other` from the row.
     fn reduce_by_transposed(&mut self, block: &Self::Block, other: &Self);
 }
 
@@ -57,8 +57,8 @@ fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
     sum
 }
 
-/// The algebra of rows of so many numbers, written out: of each row the columns before it, of each of
-/// these those before that one; then the rows from the last on with the columns before each.
+/// The unrolled algebra of rows of the given size: for each row the columns before it, for each of these the columns
+/// before that; then the rows from the last on with the columns before each.
 macro_rules! freedoms {
     ($n:literal: $($r:literal [$($c:literal [$($k:literal)*])*])*; $($last:literal [$($before:literal)*])*) => {
         impl<R: Real> Freedoms for [R; $n] {
@@ -213,7 +213,7 @@ mod tests {
         for (found, meant) in x.into_iter().zip(meant) {
             assert!((found - meant).abs() < 1e-12, "{found} {meant}");
         }
-        // A rank of two has no third pivot.
+        // A matrix of rank two has no third pivot.
         let mut thin = <[f64; 3]>::EMPTY;
         [1.0, 2.0, 3.0].add_square(1.0, &mut thin);
         [0.0, 1.0, 1.0].add_square(1.0, &mut thin);

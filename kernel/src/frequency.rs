@@ -1,17 +1,14 @@
-//! How fast a model can vibrate at a pose: a guaranteed bound and an estimate.
+//! The highest natural frequency of a model at a pose: a guaranteed bound and an estimate.
 //!
-//! `(model, state) => ω` \[rad/s\]. The bound is block Gershgorin on the mass-scaled tangent
-//! stiffness: for a spring κ with rows `j_a`, `j_b` over its two bodies,
-//! `(j_a·x_a + j_b·x_b)² ≤ 2·(j_a·x_a)² + 2·(j_b·x_b)²`, so `ω² ≤ max_b λ_max(Σ φ·κ·j·jᵀ)` with
-//! φ = 2, or 1 where the other end is the world (Feingold & Varga 1962). A spring under the
-//! tension T adds |T|/L along both normals of its line and, of the force F on the arm r of each body,
-//! `(r·F)·I − ½·(r·Fᵀ + F·rᵀ)` to its turns.
-//! A clearance counts as taken up, an actuator's pull as a tension. Loads and other inputs, whose
-//! share of the stiffness is that of a weight and not of a spring, are left out.
-//! The estimate is power iteration on differences of forces, one pair of evaluations each, on the
-//! symmetric part of the stiffness alone: a torque τ that rests on a body, as that of a wound
-//! spring, adds `½·φ × τ` to the response to a turn φ in body axes (the commutator of turns), which
-//! is taken off again. Both speak for the pose, not for the future.
+//! `(model, state) => ω` \[rad/s\]. The bound is block Gershgorin on the mass-scaled tangent stiffness: for a spring κ
+//! with rows `j_a`, `j_b` over its two bodies, `(j_a·x_a + j_b·x_b)² ≤ 2·(j_a·x_a)² + 2·(j_b·x_b)²`, so
+//! `ω² ≤ max_b λ_max(Σ φ·κ·j·jᵀ)` with φ = 2, or 1 where the other end is the world (Feingold & Varga 1962). A spring
+//! under the tension T adds |T|/L along both normals of its line and, for the force F at the lever arm r of each body,
+//! `(r·F)·I − ½·(r·Fᵀ + F·rᵀ)` to its rotations. A clearance counts as closed, an actuator's force as a tension. Loads
+//! and other inputs, whose stiffness is that of a weight and not of a spring, are left out. The estimate is power
+//! iteration on differences of forces, one pair of evaluations each, on the symmetric part of the stiffness only: a
+//! constant torque τ on a body, as that of a wound spring, adds `½·φ × τ` to the response to a rotation φ in body axes
+//! (the commutator of rotations), which is subtracted again. Both are valid for the pose only.
 
 mod bound;
 
@@ -30,20 +27,17 @@ use crate::schedule::Signal;
 use crate::space::{Linear as _, Moment as _, Space};
 use crate::state::State;
 
-/// Largest displacement \[m\] of a centre of mass or a point, and turn \[rad\], of the estimate's
-/// differences.
+/// Largest displacement \[m\] of a centre of mass or a point, and rotation \[rad\], of the estimate's differences.
 const PROBE: f64 = 1e-6;
 
-/// The share of the response that lies along a direction, from which on the eigenvalues it mixes
-/// are positive.
+/// The fraction of the response along a direction above which the eigenvalues involved are positive.
 const CLEARLY_POSITIVE: f64 = 0.99;
 
-/// A lower estimate of the highest angular frequency \[rad/s\] at the pose of `state`, by
-/// `iterations` power iterations on the symmetric part of `M^-1/2·K·M^-1/2`; each takes two force
-/// evaluations. Not above the true frequency of the elements, but for the rounding of the
-/// differences, about 1e-8 of it, as every Rayleigh quotient of a symmetric matrix; torques and
-/// forces that turn with a body, which have no energy, are left out. Meant for double precision:
-/// forces are differenced over 1e-6 m. Never above [`bound`].
+/// A lower estimate of the highest angular frequency \[rad/s\] at the pose of `state`, by `iterations` power iterations
+/// on the symmetric part of `M^-1/2·K·M^-1/2`; each needs two force evaluations. Not above the exact frequency of the
+/// elements, like every Rayleigh quotient of a symmetric matrix, except for the rounding of the differences, about 1e-8
+/// of it; torques and forces that rotate with a body, which have no energy, are left out. Intended for double
+/// precision: forces are differenced over 1e-6 m. Never above [`bound`].
 pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> f64 {
     let mut rest = state.clone();
     for (signal, input) in rest.signals.as_mut().iter_mut().zip(model.view().inputs) {
@@ -60,17 +54,17 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
     let power = |shift| largest_by_magnitude(model, &rest, torques.as_ref(), iterations, shift);
     let (mut square, radius) = power(0.0);
     if square < CLEARLY_POSITIVE * radius {
-        // Compressed springs can have the largest eigenvalue by magnitude, a negative one, or one
-        // that rivals the positive; a shift by it leaves the positive ones at the top.
+        // Compressed springs can have the largest eigenvalue by magnitude, a negative one, or one close to the positive
+        // one; a shift by it makes the positive ones the largest.
         square = power(radius).0 - radius;
     }
     let found = libm::sqrt(if square > 0.0 { square } else { 0.0 });
-    // Far from the origin differences of forces are coarse.
+    // Far from the origin differences of forces are inaccurate.
     let most = bound(model, state).to_f64();
     if found > most { most } else { found }
 }
 
-/// \[m\] How far a point of each body that an element holds is from its centre of mass.
+/// \[m\] The distance from the centre of mass of each body to the furthest point of its elements.
 fn reaches<M: ModelOwner>(model: &M) -> M::PerBody<f64> {
     let view = model.view();
     let mut reaches = model.per_body(0.0);
@@ -90,7 +84,7 @@ fn reaches<M: ModelOwner>(model: &M) -> M::PerBody<f64> {
     reaches
 }
 
-/// The torques at rest, body axes; `None` where a twist is undefined.
+/// The torques of the undisplaced pose, body axes; `None` where a torsion angle is undefined.
 fn torques<M: ModelOwner>(model: &M, state: &State<M>) -> Option<M::PerBody<Wrench<SpaceOf<M>>>> {
     let mut frames = model.per_body(FrameOf::<M>::default());
     let mut wrenches = model.per_body(Wrench::default());
@@ -117,9 +111,9 @@ fn torques<M: ModelOwner>(model: &M, state: &State<M>) -> Option<M::PerBody<Wren
     Some(wrenches)
 }
 
-/// The eigenvalue of the symmetric part of `M^-1/2·K·M^-1/2 + shift·I` \[1/s²\] of the largest
-/// magnitude, and the magnitude of the response, which is that of the eigenvalue but where several
-/// mix. `torques` are those at rest.
+/// The eigenvalue of the symmetric part of `M^-1/2·K·M^-1/2 + shift·I` \[1/s²\] of the largest magnitude, and the
+/// magnitude of the response, which is that of the eigenvalue except where several mix. `torques` are those of the
+/// undisplaced pose.
 fn largest_by_magnitude<M: ModelOwner>(
     model: &M,
     state: &State<M>,
@@ -237,7 +231,7 @@ fn start_direction<S: Space>(direction: &mut [Increment<S>]) {
     }
 }
 
-/// The largest component of `M^-1/2·x`, of turns at the body's reach.
+/// The largest component of `M^-1/2·x`; rotations count at the body's largest point distance.
 fn largest_move<S: Space>(bodies: &[Body<S>], direction: &[Increment<S>], reaches: &[f64]) -> f64 {
     let mut largest = 0.0_f64;
     for ((body, x), &reach) in bodies.iter().zip(direction).zip(reaches) {

@@ -1,10 +1,9 @@
 //! The arithmetic of positions, velocities and the displacement between two points.
 //!
-//! Kept apart from [`Real`] because this is where precision is won or lost: a displacement of
-//! micrometres is the difference of coordinates of metres. A precision is one type that
-//! implements [`Geometry`]; laws and schemes see displacements, arms and rates as vectors of its
-//! `Real` and never a coordinate. Orientations are [`Attitude`]s, stored apart from positions. Which
-//! vectors there are says its [`Space`].
+//! Separate from [`Real`] because it determines precision: a displacement of micrometres is the difference of
+//! coordinates of metres. A precision is a type that implements [`Geometry`]; laws and schemes use displacements, lever
+//! arms and rates as vectors of its `Real`, never coordinates. Orientations are [`Attitude`]s, stored separately from
+//! positions. The vectors are those of its [`Space`].
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -17,7 +16,7 @@ use crate::space::{Linear as _, Moment, Space, Vector};
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::Words;
 
-/// How far what a precision stores may go: of fixed point, for what floats has no end.
+/// The range of a precision: fixed point only, floating point has no limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Limits {
@@ -31,15 +30,15 @@ pub struct Limits {
     pub shift: f64,
 }
 
-/// How a precision stores and combines positions and velocities, and which attitude goes with them.
+/// How a precision stores and combines positions and velocities, and its attitude.
 pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// The number in which forces and rates are computed.
     type Real: Real;
-    /// Displacements, arms, velocities and forces.
+    /// Displacements, lever arms, velocities and forces.
     type Vector: Vector<Real = Self::Real, Moment = Self::Moment>;
     /// Angular velocities, torques and inertias.
     type Moment: Moment<Real = Self::Real, Vector = Self::Vector>;
-    /// The space that these are of.
+    /// The space of these vectors.
     type Space: Space<Real = Self::Real, Vector = Self::Vector, Moment = Self::Moment>;
     /// The stored position of a body's centre of mass, world.
     type Position: Copy + Debug + Default + PartialEq + Send + Words;
@@ -53,27 +52,27 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     type Local: Copy + Debug + Default + PartialEq + Send + Sync + Words;
     /// A point in the world.
     type Location: Copy + Default;
-    /// A body's pose, prepared for placing many points.
+    /// A body's pose, prepared for computing many points.
     type Frame: Copy + Debug + Default + Send;
-    /// What it keeps of a TSDA at rest, `()` where it keeps nothing.
+    /// The reference data of a TSDA, `()` where none is stored.
     type Rest: Copy + Debug + Default + Send;
-    /// How one body stands to another, `()` where nothing is kept at rest.
+    /// The relative pose of two bodies, `()` where no reference data is stored.
     type Apart: Copy + Default;
-    /// What a damper pass sums apart per body, `()` where velocities take every impulse at once.
+    /// The sums of a damper pass per body, `()` where impulses are added to velocities directly.
     type PassSum: PassSum<Self::Space>;
 
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
     /// The space's name: `spatial`, `planar`.
     const SPACE: &'static str = <Self::Space as Space>::NAME;
-    /// How orientations are stored, in users' words.
+    /// The name of the storage form of orientations, for users.
     const ORIENTATION: &'static str = <Self::Orientation as Attitude>::NAME;
-    /// How far bodies and points may go, `None` where numbers float.
+    /// The range of bodies and points, `None` for floating point.
     const LIMITS: Option<Limits> = None;
 
     /// Prepares a pose for [`Self::place`].
     fn frame(position: &Self::Position, orientation: &Self::Orientation) -> Self::Frame;
-    /// Writes [`Self::frame`] where it is kept.
+    /// Writes [`Self::frame`] in place.
     #[inline(always)]
     fn set_frame(
         frame: &mut Self::Frame,
@@ -82,7 +81,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     ) {
         *frame = Self::frame(position, orientation);
     }
-    /// After the turns of a step [`Self::renormalise`], and then [`Self::set_frame`].
+    /// After the rotations of a step [`Self::renormalise`], and then [`Self::set_frame`].
     #[inline(always)]
     fn set_next_frame(
         frame: &mut Self::Frame,
@@ -92,7 +91,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
         Self::renormalise(orientation);
         Self::set_frame(frame, position, orientation);
     }
-    /// The point's world location and its arm from the centre of mass in world axes \[m\].
+    /// The point's world location and its lever arm from the centre of mass in world axes \[m\].
     fn place(frame: &Self::Frame, local: &Self::Local) -> (Self::Location, Self::Vector);
     /// The location of a point of the ground.
     fn ground(local: &Self::Local) -> Self::Location;
@@ -100,8 +99,8 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn shift(location: &Self::Location, by: Self::Vector) -> Self::Location;
     /// `to − from` \[m\], world axes.
     fn displacement(from: &Self::Location, to: &Self::Location) -> Self::Vector;
-    /// [`Self::displacement`] beside a free length \[m\]: a precision may know the difference of the lengths
-    /// better than the way.
+    /// [`Self::displacement`] with a free length \[m\]: a precision may represent the difference of the lengths more
+    /// accurately than the displacement.
     #[inline(always)]
     fn reach(
         from: &Self::Location,
@@ -111,11 +110,11 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
         let _ = free_length;
         Reach { way: Self::displacement(from, to), more: None }
     }
-    /// Whether TSDAs are kept at rest: how far the centre of a star is from where it rests in B is known better
-    /// than how far it is from the points of B.
+    /// Whether reference data of TSDAs is stored: the offset of a triple's centre from its reference position in B is
+    /// then more accurate than its distance from the points of B.
     const RESTS: bool = false;
-    /// The TSDAs of a star at rest, whose centre is at `centre`, in the axes of the body of `frame`, whose points
-    /// `tips` it is joined to.
+    /// The reference data of a triple's TSDAs with the centre at `centre`, in the axes of the body of `frame`, which
+    /// has the endpoints `tips`.
     fn find_rests(
         _frame: &Self::Frame,
         _centre: &Self::Location,
@@ -124,7 +123,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
         _rests: &mut [Self::Rest],
     ) {
     }
-    /// How A stands to B, `None` the ground, which may be moved: what all stars of a joint take.
+    /// The pose of A relative to B, common to all triples of a joint; `None` for the ground, which may be moved.
     #[inline(always)]
     fn apart(
         _a: Option<&Self::Frame>,
@@ -133,7 +132,8 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     ) -> Self::Apart {
         Self::Apart::default()
     }
-    /// Where the centre of a star, a point of A, is beside where it rests in B; `tip` is the star's first point of B.
+    /// The offset of a triple's centre, a point of A, from its reference position in B; `tip` is the triple's first
+    /// point of B.
     #[inline(always)]
     fn beside<const ARMS: usize>(
         _apart: &Self::Apart,
@@ -143,7 +143,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     ) -> Beside<Self::Vector> {
         Beside::default()
     }
-    /// Where the centre of a second star is beyond that of the first.
+    /// The offset of a second triple's centre relative to that of the first.
     #[inline(always)]
     fn beyond<const ARMS: usize>(
         (_a, _centres): (Option<&Self::Frame>, [&Self::Local; 2]),
@@ -152,12 +152,12 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     ) -> Beyond<Self::Vector> {
         Beyond::default()
     }
-    /// A TSDA at rest as its law has it.
+    /// The reference state of a TSDA for its law.
     #[inline(always)]
     fn at_rest(_rest: &Self::Rest) -> AtRest<Self::Vector> {
         AtRest::default()
     }
-    /// \[m²\] below which square of what a star's centre is off its TSDAs are near their rest.
+    /// \[m²\] the squared offset of a triple's centre below which its TSDAs are near their reference.
     #[inline(always)]
     fn near_rest(_rest: &Self::Rest) -> Self::Real {
         Self::Real::ZERO
@@ -170,7 +170,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn moment_to_world(frame: &Self::Frame, m: Self::Moment) -> Self::Moment;
     /// A moment's world axes to body axes.
     fn moment_to_body(frame: &Self::Frame, m: Self::Moment) -> Self::Moment;
-    /// The axes of a body's moments, a moment's world axes; as many as it has components.
+    /// The axes of a body's moments in world axes, one per component.
     #[inline(always)]
     fn moment_axes(frame: &Self::Frame) -> [Self::Moment; 3] {
         let [x, y, z] = Self::Moment::axes();
@@ -194,10 +194,10 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     }
     /// Adds an increment to a stored velocity.
     fn accelerate(stored: &mut Self::Velocity, increment: Self::Vector);
-    /// Whether gravity acts on velocities and not by weights. The forces on a body add up to multiples of the last
-    /// digit of the largest: a weight among them is rounded the same way step after step, and that does work.
+    /// Whether gravity acts on velocities and not by weights. The forces on a body are rounded to the last digit of the
+    /// largest: a weight among them is rounded in the same direction step after step, which does work.
     const FALLS: bool = false;
-    /// Adds to a stored velocity what a body falls by, to be rounded with the next [`Self::accelerate`].
+    /// Adds the increment by gravity to a stored velocity, to be rounded with the next [`Self::accelerate`].
     #[inline(always)]
     fn fall(stored: &mut Self::Velocity, increment: Self::Vector) {
         Self::accelerate(stored, increment);
@@ -209,7 +209,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn spin_up_across<const AXIS: usize>(stored: &mut Self::Spin, increment: Self::Moment) {
         Self::spin_up(stored, increment);
     }
-    /// [`Self::spin_up`] by nothing: takes in what a stored angular velocity is owed.
+    /// [`Self::spin_up`] by zero: adds the stored rounding error.
     #[inline(always)]
     fn settle(stored: &mut Self::Spin) {
         Self::spin_up(stored, Self::Moment::ZERO);
@@ -217,13 +217,13 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// Adds a displacement to a stored position.
     fn translate(position: &mut Self::Position, displacement: Self::Vector);
 
-    /// Adds to a stored position what its velocity does in `time` \[s\].
+    /// Advances a stored position by its velocity for `time` \[s\].
     #[inline(always)]
     fn fly(position: &mut Self::Position, velocity: &Self::Velocity, time: Self::Real) {
         Self::translate(position, Self::velocity(velocity) * time);
     }
 
-    /// Turns about body axis `AXIS` by its `rate` for `time` \[s\], given cosine and sine of half the angle.
+    /// Rotates about body axis `AXIS` by its `rate` for `time` \[s\], given cosine and sine of half the angle.
     #[inline(always)]
     fn turn_about<const AXIS: usize>(
         orientation: &mut Self::Orientation,
@@ -234,12 +234,12 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
         let _ = (rate, time);
         Self::Orientation::turn_about::<AXIS>(orientation, cos, sin);
     }
-    /// Brings an orientation back to unit length after [`Self::turn_about`], where that did not.
+    /// Restores unit length after [`Self::turn_about`], where that does not.
     #[inline(always)]
     fn renormalise(orientation: &mut Self::Orientation) {
         orientation.renormalise();
     }
-    /// Whether a position is within the limits, and no drift before it was beyond them.
+    /// Whether a position is within the limits, and no previous drift left them.
     #[inline(always)]
     fn is_within(_position: &Self::Position) -> bool {
         true
@@ -287,7 +287,7 @@ pub struct Pose<R> {
 }
 
 impl<R: Real> Pose<R> {
-    /// Its numbers: position and the rotation's rows.
+    /// Its numbers: position and the rows of the rotation matrix.
     #[inline(always)]
     #[must_use]
     pub fn numbers(&self) -> [R; 12] {
@@ -295,7 +295,7 @@ impl<R: Real> Pose<R> {
         [p.x, p.y, p.z, x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z]
     }
 
-    /// The pose of [`Self::numbers`].
+    /// The pose from [`Self::numbers`].
     #[inline(always)]
     #[must_use]
     pub fn from_numbers(numbers: [R; 12]) -> Self {
@@ -309,7 +309,7 @@ impl<R: Real> Pose<R> {
     }
 }
 
-/// What tells the floating-point precisions apart.
+/// The difference between the floating-point precisions.
 pub trait Named {
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
@@ -430,8 +430,8 @@ impl<R: Real + Named, A: Attitude<Real = R, Turn = Quaternion<R>>> Geometry for 
         spin.to_f64()
     }
     fn local_from_f64(local: [f64; 3]) -> Vec3<R> {
-        // + 0.0 turns a negative zero into a positive one, so that placing a ground point by an
-        // identity pose and taking it as stored give one set of bits.
+        // + 0.0 turns a negative zero into a positive one, so that a ground point transformed by an identity pose and
+        // one taken as stored have the same bits.
         Vec3::from_f64(local.map(|c| c + 0.0))
     }
     fn local_to_f64(local: &Vec3<R>) -> [f64; 3] {

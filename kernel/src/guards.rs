@@ -1,7 +1,7 @@
-//! Guards of every step: what a step must not have made of a state.
+//! Guards of every step: conditions that a state must fulfil after it.
 //!
-//! `(states, turn counts, h) => the first fault`. One pass over the bodies; turn counts only where a
-//! model has torsion springs. What costs more than a step can bear is [`crate::watch`]'s.
+//! `(states, revolution counts, h) => the first fault`. One pass over the bodies; revolution counts only where a model
+//! has torsion springs. More expensive checks are in [`crate::watch`].
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
@@ -13,8 +13,8 @@ use crate::space::Linear as _;
 use crate::status::Cause;
 use crate::words::{Sums, Words as _, is_finite};
 
-/// The first body with a number in its state that is infinite or NaN or that turns by more than `most` in a
-/// step `h`, else the first turn count at its end.
+/// The first body with a number in its state that is infinite or NaN or that rotates by more than `most` in a step `h`,
+/// else the first revolution count that overflowed.
 #[inline]
 pub(crate) fn first_fault<P: Geometry, T: Terms<P>>(
     bodies: &[BodyState<P>],
@@ -34,7 +34,7 @@ pub(crate) fn first_fault<P: Geometry, T: Terms<P>>(
     None
 }
 
-/// Whether all bodies are well for sure: all their numbers in one sum, all their turns in another, and one
+/// Whether all bodies are certainly valid: all their numbers in one sum, all their rotations in another, and one
 /// comparison for both.
 #[inline]
 fn are_well<P: Geometry>(bodies: &[BodyState<P>], h: P::Real, most: P::Real) -> bool {
@@ -42,19 +42,19 @@ fn are_well<P: Geometry>(bodies: &[BodyState<P>], h: P::Real, most: P::Real) -> 
     for state in bodies {
         state.position.visit(&mut sums);
         state.orientation.visit(&mut sums);
-        // What of a velocity is no number or infinite is so of its value, and of a spin of its square.
+        // A velocity's NaN or infinity carries over to its value, that of an angular velocity to its square.
         P::velocity(&state.velocity).visit(&mut sums);
         sums.end();
         let rate = P::spin(&state.angular_velocity);
         squares = squares + rate.dot(rate);
     }
-    // Half of what a body may turn, so that rounding has room. Taken away, for in double precision, which
-    // has its numbers in integers, taking a constant 0 away is no operation.
+    // Half of the allowed rotation, as a margin for rounding. Subtracted, because in double precision, which has its
+    // numbers in integers, subtracting a constant 0 costs nothing.
     let nought = P::Real::from_f64(f64::from(sums.nought()));
     sums.are_finite() && squares * (h * h) - nought <= P::Real::HALF * most
 }
 
-/// Body by body: what may be at fault need not be.
+/// Body by body: the fast check may fail without a fault.
 #[cold]
 #[inline(never)]
 fn first_at_fault<P: Geometry>(
@@ -76,7 +76,7 @@ fn first_at_fault<P: Geometry>(
     None
 }
 
-/// The first body whose orientation or place a precision of fixed point could not store.
+/// The first body whose orientation or position is out of the fixed-point range.
 #[inline]
 pub(crate) fn first_beyond<P: Geometry>(bodies: &[BodyState<P>]) -> Option<Cause> {
     P::LIMITS?;

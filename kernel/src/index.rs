@@ -1,5 +1,4 @@
-//! Indices of a model's parts: small, `Copy`; some have a value that stands for the world or for
-//! "not there".
+//! Indices of a model's parts: small, `Copy`; some have a value for the world or for "none".
 
 /// The index of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,16 +24,19 @@ impl BodyIndex {
     /// The world: immovable, its points are the ground's.
     pub const WORLD: Self = Self(u16::MAX);
 
-    /// Indices from here on are the ground's; a model has at most so many bodies.
+    /// Indices from here on are the ground's; it is also the largest number of bodies.
     pub const FIRST_ANCHOR: u16 = 0xff00;
 
-    /// The ground as moved by input `input`, an [`crate::elements::input::InputKind::Anchor`].
+    /// The ground moved by input `input`, an [`crate::elements::input::InputKind::Anchor`].
     ///
     /// # Panics
     /// Where the input's index is above 254.
     #[must_use]
     pub const fn anchor(input: InputIndex) -> Self {
-        assert!(input.0 < u16::MAX - Self::FIRST_ANCHOR, "an anchor is one of the first inputs");
+        assert!(
+            input.0 < u16::MAX - Self::FIRST_ANCHOR,
+            "the input's index is too large for an anchor"
+        );
         Self(Self::FIRST_ANCHOR + input.0)
     }
 
@@ -49,13 +51,13 @@ impl BodyIndex {
         }
     }
 
-    /// Whether this is the world, moved by an input or not: no force moves it.
+    /// Whether this is the world, moved by an input or not: it is not moved by forces.
     #[must_use]
     pub const fn is_world(self) -> bool {
         self.0 >= Self::FIRST_ANCHOR
     }
 
-    /// The index into slices of bodies; the world's lies beyond any of them.
+    /// The index into slices of bodies; the world's is beyond the end.
     #[inline(always)]
     #[must_use]
     pub const fn row(self) -> usize {

@@ -1,6 +1,6 @@
-//! What a scheme keeps in its plant beside its memory per body: levers of joints, blocks of a matrix.
+//! The storage of a scheme in its plant apart from its memory per body: damping modes, blocks of a matrix.
 //!
-//! `model => memory`. What a scheme does not need is not there.
+//! `model => memory`. A scheme has only the memory that it needs.
 
 use crate::damping::Lever;
 use crate::freedoms::Freedoms as _;
@@ -8,15 +8,15 @@ use crate::model::{ModelOwner, SpaceOf};
 use crate::solve::Seat;
 use crate::space::{BlockOf, Space};
 
-/// What a scheme keeps in its plant.
+/// The storage of a scheme in its plant.
 pub trait Keep {
-    /// Whether there is a matrix, which takes a model with a plan.
+    /// Whether there is a matrix, which requires a model with an elimination order.
     const MATRIX: bool = false;
-    /// Whether there is one of half a step, too.
+    /// Whether there is another for half a step.
     const HALVES: bool = false;
-    /// Memory for a model's levers.
+    /// Memory for a model's damping modes.
     type Levers<M: ModelOwner>: AsRef<[Lever<M::Precision>]> + AsMut<[Lever<M::Precision>]>;
-    /// Memory for joints held as a point and an axis.
+    /// Memory for lumped joints: a point and an axis.
     type Seats<M: ModelOwner>: AsRef<[Seat<SpaceOf<M>>]> + AsMut<[Seat<SpaceOf<M>>]>;
     /// The same for half a step.
     type HalfSeats<M: ModelOwner>: AsRef<[Seat<SpaceOf<M>>]> + AsMut<[Seat<SpaceOf<M>>]>;
@@ -25,11 +25,11 @@ pub trait Keep {
     /// Memory for the blocks of pairs of bodies.
     type Pairs<M: ModelOwner>: AsMut<[BlockOf<SpaceOf<M>>]>;
 
-    /// Memory without anything yet.
+    /// Memory in its initial state.
     fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M>;
 }
 
-/// What `K` keeps for a model.
+/// The storage of `K` for a model.
 pub struct Kept<K: Keep + ?Sized, M: ModelOwner> {
     pub(crate) levers: K::Levers<M>,
     pub(crate) seats: K::Seats<M>,
@@ -38,7 +38,7 @@ pub struct Kept<K: Keep + ?Sized, M: ModelOwner> {
     pub(crate) pairs: K::Pairs<M>,
 }
 
-/// Nothing: no memory.
+/// No storage.
 #[derive(Clone, Copy, Debug)]
 pub struct Nothing;
 
@@ -55,7 +55,7 @@ impl Keep for Nothing {
     }
 }
 
-/// Levers: twenty-six words per damper in space, twenty-one in the plane.
+/// Damping modes: twenty-six words per damper in space, twenty-one in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Levers;
 

@@ -4,32 +4,32 @@
 //! constraints, and explicit schemes need no matrix (Franco & Degani, Appl. Sci. 2026, 16, 2297). The same scene,
 //! scheme, precision and step give the same bits on every target.
 //!
-//! The modules in the order of the road; each uses only those before it (a test holds it to that):
+//! The modules in order of dependency; each uses only those before it (checked by a test):
 //!
-//! - [`words`], `square_root`, [`real`], [`vector`], [`freedoms`], [`space`], [`plane`], [`arctangent`]: the
-//!   arithmetic, also of blocks of numbers, and the words in which it is stored.
-//! - `compositions`, [`index`]: coefficients, and names of a model's parts.
-//! - [`attitude`], [`reach`], [`pass_sum`], [`geometry`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision
-//!   is a type: [`F64`], [`F32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an
-//!   orientation is a quaternion or, as in the paper, angles.
-//! - [`body`], [`rotation`], `lockstep`: one rigid body, and how it turns, alone or in lanes.
-//! - [`status`], [`elements`], [`schedule`], [`sources`]: what can fail; the laws, one per file; what happens
-//!   when; sines and tables that inputs follow.
-//! - `record`, [`laws`]: what acts on two bodies; laws of one's own, each a type that a model lists.
-//! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and how a person
-//!   writes them; plain data and its hash.
-//! - `pose`, `sensors`, [`forces`], [`damping`]: where points lie; what sensors of motion read; one
-//!   evaluation; dampers as impulses.
-//! - [`solve`], [`keep`]: the linear system of a scheme that has one; what a scheme keeps in its plant.
-//! - [`step`], [`schemes`]: kick and drift; how they make a step.
-//! - [`frequency`]: how fast a model can vibrate.
-//! - `guards`, [`extents`], `refusal`, [`plant`]: what a step must not have made; what a precision cannot
-//!   hold; why a plant refuses what it is given; model, scheme, step and state together.
-//! - [`energy`], [`power`], [`watch`]: what a state holds; who changes that, and how fast; guards that look at it and at how fast it can vibrate.
-//! - [`fingerprint`], [`snapshot`], [`readouts`]: what a state belongs to; a state as bytes from machine to
-//!   machine; what sensors see.
-//! - [`builder`], `convert`, `format`: models assembled at run time, nalgebra's types, defmt's
-//!   (features).
+//! - [`words`], `square_root`, [`real`], [`vector`], [`freedoms`], [`space`], [`plane`], [`arctangent`]: arithmetic,
+//!   including blocks of numbers, and the words in which state is stored.
+//! - `compositions`, [`index`]: coefficients of schemes, and indices of a model's parts.
+//! - [`attitude`], [`reach`], [`pass_sum`], [`geometry`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision is a
+//!   type: [`F64`], [`F32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an orientation is a quaternion or, as
+//!   in the paper, Euler angles.
+//! - [`body`], [`rotation`], `lockstep`: one rigid body, and its rotation, alone or in lanes.
+//! - [`status`], [`elements`], [`schedule`], [`sources`]: failures; the element laws, one per file; the timing of loads
+//!   and inputs; sines and tables that drive inputs.
+//! - `record`, [`laws`]: forces on two bodies; user-defined laws, each a type that a model lists.
+//! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and their source form; the state
+//!   and its hash.
+//! - `pose`, `sensors`, [`forces`], [`damping`]: points of elements; motion sensors; one force evaluation; dampers as
+//!   impulses.
+//! - [`solve`], [`keep`]: the linear system of implicit schemes; the storage of a scheme in its plant.
+//! - [`step`], [`schemes`]: kick and drift; schemes composed of them.
+//! - [`frequency`]: the highest natural frequency of a model.
+//! - `guards`, [`extents`], `refusal`, [`plant`]: checks after every step; the range of a precision; errors of a plant;
+//!   model, scheme, step and state together.
+//! - [`energy`], [`power`], [`watch`]: the energy of a state; its change by loads, inputs and dampers; guards on energy
+//!   and frequency.
+//! - [`fingerprint`], [`snapshot`], [`readouts`]: the identity of a state's model; a state as bytes, portable between
+//!   machines; sensors.
+//! - [`builder`], `convert`, `format`: models assembled at run time, nalgebra's types, defmt's (features).
 //!
 //! ```
 //! use dbd_kernel::sketch::{Sketch, Spring, Start};

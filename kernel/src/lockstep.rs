@@ -1,8 +1,7 @@
-//! The free rotor of fourth order in lanes that need not turn alike.
+//! The free rotor of fourth order in lanes with different branches.
 //!
-//! `(ω, h, orientation) => orientation, ω`, each lane with the bits of
-//! [`crate::rotation::free_rotor_of_order_four`]: every way that any lane goes is gone once, without the lanes
-//! that go another.
+//! `(ω, h, orientation) => orientation, ω`, each lane with the bits of [`crate::rotation::free_rotor_of_order_four`]:
+//! every branch taken by any lane is executed once, with the other lanes masked.
 
 use crate::attitude::Attitude as _;
 use crate::body::Body;
@@ -41,7 +40,7 @@ pub(crate) fn free_rotor_of_order_four<P: Geometry>(
     P::Orientation::keep(orientation, resting, &start);
 }
 
-/// Lanes that turn about more than one axis.
+/// Lanes that rotate about more than one axis.
 #[inline(always)]
 fn tumble<P: Geometry>(
     body: &Body<P::Space>,
@@ -75,7 +74,7 @@ fn tumble<P: Geometry>(
     }
 }
 
-/// The turns about the two axes that are not the middle one.
+/// The rotations about the two axes other than the middle one.
 #[inline(always)]
 fn split<P: Geometry>(
     body: &Body<P::Space>,
@@ -104,7 +103,7 @@ fn split<P: Geometry>(
     }
 }
 
-/// A turn about an axis for a time, without some lanes.
+/// A rotation about an axis for a time, with some lanes masked.
 #[inline(always)]
 fn turn<P: Geometry>(
     axis: Axis,

@@ -1,7 +1,7 @@
-//! Fast and loose: single precision with the square root of `micromath`.
+//! Approximate single precision with the square root of `micromath`.
 //!
-//! It is an approximation by bit shifts, off by up to several per cent: a spring whose length is off by a
-//! share of itself pulls with a force that nothing causes. For comparison only, never a default; feature `micromath`.
+//! It is an approximation by bit shifts with an error of up to several per cent: a spring with such an error of its
+//! length exerts a spurious force. For comparison only, never a default; feature `micromath`.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -12,13 +12,13 @@ use crate::real::{Constant, Real, one_lane};
 use crate::space::Space;
 use crate::words::{Word, WordSource};
 
-/// A number of single precision whose square root is an approximation.
+/// A single-precision number with an approximate square root.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 #[repr(transparent)]
 pub struct Loose(pub f32);
 
-/// Loose arithmetic, orientations as quaternions.
+/// Approximate arithmetic, orientations as quaternions.
 pub type Loose32 = Float<Loose>;
 
 macro_rules! operator {

@@ -1,20 +1,20 @@
-//! What a damper pass sums per body before a velocity takes it.
+//! The sum of a damper pass per body, added to the velocity at its end.
 //!
-//! `impulses of a pass => one change of velocity`. A velocity in single precision has no digits for what one
-//! joint's dampers take from it, and rounds them off the same way step after step.
+//! `impulses of a pass => one change of velocity`. A velocity in single precision cannot resolve the impulse of one
+//! joint's dampers and rounds it in the same direction step after step.
 
 use core::fmt::Debug;
 
 use crate::space::Space;
 
-/// What a damper pass has given to a body, apart from the velocity before the pass; `()` in precisions
-/// whose velocities take every impulse at once.
+/// The sum of a damper pass for a body, apart from the velocity before the pass; `()` in precisions that add impulses
+/// to velocities directly.
 pub trait PassSum<S: Space>: Copy + Debug + Default + Send + 'static {
     /// Whether there is a sum.
     const APART: bool;
     /// The sum.
     fn sum(&self) -> Option<&Sum<S>>;
-    /// The sum, to be added to.
+    /// The sum, mutable.
     fn sum_mut(&mut self) -> Option<&mut Sum<S>>;
 }
 

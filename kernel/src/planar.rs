@@ -1,9 +1,9 @@
-//! Planar precisions: models that lie in the plane z = 0, with three freedoms per body.
+//! Planar precisions: models in the plane z = 0, with three degrees of freedom per body.
 //!
-//! `model and state of z = 0 => two thirds of the words, a third of the arithmetic`. What comes in and
-//! goes out in double precision has three components, as in space; those off the plane are taken as
-//! zero. A model is planar where centres, points and forces lie in z = 0, a principal axis of every body
-//! along z, turns and moments about z: then the motion is that of space, to rounding.
+//! `model and state of z = 0 => two thirds of the words, a third of the arithmetic`. Values in double precision have
+//! three components, as in space; those off the plane are taken as zero. A model is planar where centres, points and
+//! forces are in z = 0, a principal axis of every body is along z, and rotations and moments are about z: then the
+//! motion is that of space, to rounding.
 
 use core::marker::PhantomData;
 

@@ -1,8 +1,7 @@
-//! The plane: vectors of two components, moments of one, turns about z.
+//! The plane: vectors of two components, moments of one, rotations about z.
 //!
-//! `space's z = 0 => two, one and two numbers`. A turn is stored as the quaternion about z that it is
-//! in space, its scalar part and its z: so states, twists and turn counts of the plane are those of
-//! space, without the zeros.
+//! `space's z = 0 => two, one and two numbers`. A rotation is stored as its spatial quaternion about z, the scalar part
+//! and z: so states, torsion angles and revolution counts of the plane are those of space, without the zeros.
 
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -11,7 +10,7 @@ use crate::space::{Linear, Moment, Space, Turn, Vector};
 use crate::vector::{Quaternion, Vec3};
 use crate::words::{WordSource, WordVisitor, Words};
 
-/// The plane over a number: three freedoms per body.
+/// The plane over a number: three degrees of freedom per body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Plane<R>(core::marker::PhantomData<R>);
@@ -53,15 +52,14 @@ impl<R: Real> Space for Plane<R> {
         (b[1], b[2]) = (b[1] - weight, b[2] - n.x);
         (z[0], z[1], z[2]) = (z[0] + m.y, z[1] - m.x, z[2] - m.dot(s));
     }
-    /// What turns about an axis in the plane leaves it.
+    /// A rotation about an axis in the plane leaves it.
     #[inline(always)]
     fn add_across(_: R, _: Vec2<R>, _: &mut [[R; 3]; 3]) {}
     #[inline(always)]
     fn take_across(_: R, _: Vec2<R>, _: &mut [[R; 3]; 3]) {}
 }
 
-/// Nothing, at an address that is a multiple of eight: three numbers of single precision beside it take the
-/// room of four.
+/// A zero-sized type with an alignment of eight: three single-precision numbers with it occupy the space of four.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(align(8))]
 pub struct Filler;
@@ -98,7 +96,7 @@ impl<R> Axial<R> {
     }
 }
 
-/// Choices by lanes, sums, differences and multiples, component by component.
+/// Selection by lanes, sums, differences and multiples, component by component.
 macro_rules! linear {
     ($name:ident, $($component:ident),+) => {
         impl<R: Real> Lanewise<R> for $name<R> {
@@ -188,7 +186,7 @@ impl<R: Real> Linear for Vec2<R> {
     fn axes() -> [Self; 3] {
         [Self::new(R::ONE, R::ZERO), Self::new(R::ZERO, R::ONE), Self::ZERO]
     }
-    // As for a vector of space.
+    // As for a spatial vector.
     #[allow(clippy::eq_op)]
     #[inline(always)]
     fn is_finite(self) -> bool {
@@ -282,7 +280,7 @@ impl<R: Real> Moment for Axial<R> {
     }
 }
 
-/// A turn about z: the quaternion of unit length `w + z·k`, cosine and sine of the half angle.
+/// A rotation about z: the quaternion of unit length `w + z·k`, cosine and sine of the half angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Heading<R> {
@@ -293,7 +291,7 @@ pub struct Heading<R> {
 }
 
 impl<R> Heading<R> {
-    /// The turn `w + z·k`.
+    /// The rotation `w + z·k`.
     pub const fn new(w: R, z: R) -> Self {
         Self { w, z }
     }

@@ -1,7 +1,7 @@
-//! Groups at a pose: where points, arms and lines of elements lie.
+//! Groups at a pose: points, lever arms and lines of elements.
 //!
-//! `(model, frames) => placed elements`, for all that looks at elements one by one: dampers,
-//! energies, frequencies. The force evaluation places whole stars instead, each point once.
+//! `(model, frames) => placed elements`, for code that visits elements one by one: dampers, energies, frequencies. The
+//! force evaluation processes whole triples instead, each point once.
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
@@ -35,7 +35,7 @@ fn place_here<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
     }
 }
 
-/// What points are placed by: the frames of the bodies, and the signals that move the ground.
+/// The data from which points are computed: the frames of the bodies, and the signals that move the ground.
 pub(crate) struct Places<'s, P: Geometry> {
     /// One per body.
     pub(crate) frames: &'s [P::Frame],
@@ -51,8 +51,8 @@ impl<P: Geometry> Clone for Places<'_, P> {
 
 impl<P: Geometry> Copy for Places<'_, P> {}
 
-/// One body as a group sees it: where it places points and how they move. The world is an end
-/// without a frame; an anchor is a world whose points are moved.
+/// One body of a group: how its points are computed and move. The world is an end without a frame; an anchor is a world
+/// whose points are moved.
 pub(crate) struct End<'s, P: Geometry> {
     frame: Option<&'s P::Frame>,
     moved: Option<P::Vector>,
@@ -70,8 +70,8 @@ impl<'s, P: Geometry> End<'s, P> {
         Self { frame: Some(frame), moved: None, velocity, spin }
     }
 
-    /// The end at a body; without `bodies` a body's points count as at rest. A moved anchor has its
-    /// rate either way: the sweeps rely on it.
+    /// The end at a body; without `bodies` a body's points count as at rest. A moved anchor has its rate either way:
+    /// the damper passes rely on it.
     #[inline(always)]
     pub(crate) fn new<T: Terms<P>>(
         model: &ModelRef<'_, P, T>,
@@ -97,7 +97,7 @@ impl<'s, P: Geometry> End<'s, P> {
         end
     }
 
-    /// The point's location and its arm, 0 for the ground's.
+    /// The point's location and its lever arm, 0 for the ground.
     #[inline(always)]
     pub(crate) fn place(&self, local: &P::Local) -> Spot<P> {
         match self.frame {
@@ -113,38 +113,38 @@ impl<'s, P: Geometry> End<'s, P> {
         }
     }
 
-    /// How this end stands to a body's; `None` where the other is none.
+    /// The pose of this end relative to a body's; `None` where the other is not a body.
     #[inline(always)]
     pub(crate) fn apart(&self, b: &Self) -> Option<P::Apart> {
         Some(P::apart(self.frame, self.moved, b.frame?))
     }
 
-    /// The frame of its body, `None` of the ground.
+    /// The frame of its body, `None` for the ground.
     #[inline(always)]
     pub(crate) fn frame(&self) -> Option<&'s P::Frame> {
         self.frame
     }
 
-    /// This end where it is a body's, known to be one.
+    /// This end if it is a body's, known to be one at compile time.
     #[inline(always)]
     pub(crate) fn body(&self) -> Option<Self> {
         self.frame.map(|frame| Self { frame: Some(frame), moved: None, ..*self })
     }
 
-    /// This end of the ground, known to be one.
+    /// This end of the ground, known to be one at compile time.
     #[inline(always)]
     pub(crate) fn ground(&self) -> Self {
         Self { frame: None, ..*self }
     }
 
-    /// This end where it is of ground that nothing moves, known to be.
+    /// This end if it is of ground that nothing moves, known at compile time.
     #[inline(always)]
     pub(crate) fn still(&self) -> Option<Self> {
         let still = self.frame.is_none() && self.moved.is_none();
         if still { Some(Self { frame: None, moved: None, ..*self }) } else { None }
     }
 
-    /// The moment of a force at the end of an arm; the ground takes none.
+    /// The moment of a force at a lever arm; 0 for the ground.
     #[inline(always)]
     pub(crate) fn moment(&self, arm: P::Vector, force: P::Vector) -> P::Moment {
         if self.frame.is_some() { arm.cross(force) } else { P::Moment::ZERO }
@@ -186,7 +186,7 @@ impl<'s, P: Geometry> End<'s, P> {
         }
     }
 
-    /// The arm of a point `offset` away from the point of `arm`; the ground has none.
+    /// The lever arm of a point `offset` away from the point of `arm`; 0 for the ground.
     #[inline(always)]
     pub(crate) fn arm_at(&self, arm: P::Vector, offset: P::Vector) -> P::Vector {
         if self.frame.is_some() { arm + offset } else { arm }
@@ -209,10 +209,10 @@ pub(crate) struct Placed<'m, V: Vector> {
     pub(crate) index: usize,
     /// From its first point to its second, and its line.
     pub(crate) stretch: Stretch<V>,
-    /// The arm of the first point, world axes; 0 on the ground; on a line that of the foot, of
-    /// a revolute joint that of the second point.
+    /// The lever arm of the first point, world axes; 0 on the ground; on a line that of the foot, of a revolute joint
+    /// that of the second point.
     pub(crate) arm_a: V,
-    /// The arm of the second point.
+    /// The lever arm of the second point.
     pub(crate) arm_b: V,
 }
 
@@ -265,7 +265,7 @@ fn between<'m, P: Geometry, T: Terms<P>>(
     Some(Placed { group, number, index, stretch, arm_a, arm_b })
 }
 
-/// How the axes of a universal joint between two ends lean.
+/// The axis error of a universal joint between two ends.
 #[inline(always)]
 fn lean<P: Geometry>(universal: &Universal<P::Space>, [a, b]: [&End<'_, P>; 2]) -> Lean<P::Space> {
     Lean::new(a.to_world(universal.lever), b.to_world(universal.axis))
@@ -275,8 +275,8 @@ fn unit<V: Vector>(v: V) -> V {
     v * v.dot(v).sqrt().reciprocal_or_zero()
 }
 
-/// \[m\] Against which turns of the second body beside the first an element holds the axes of a joint, world,
-/// as long as its lever, and how many they are: of a universal joint one, of a revolute two.
+/// \[m\] The axes of rotation, of the second body relative to the first, that a joint element resists, world, with the
+/// length of its lever arm, and their number: one for a universal joint, two for a revolute.
 #[inline(always)]
 pub(crate) fn held_turns<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
@@ -304,13 +304,13 @@ pub(crate) fn held_turns<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// The most points of the second body that one of the first is joined to.
+/// The largest number of points of the second body joined to one point of the first.
 pub(crate) const MOST_ARMS: usize = 3;
 
-/// Where a point lies, and its arm.
+/// A world point, and its lever arm.
 pub(crate) type Spot<P> = (<P as Geometry>::Location, <P as Geometry>::Vector);
 
-/// Visits every element of the groups in order; frames are those of the pose. Each point is placed once.
+/// Visits every element of the groups in order; frames are those of the pose. Each point is computed once.
 pub(crate) fn each_element<'m, P: Geometry, T: Terms<P>>(
     model: &ModelRef<'m, P, T>,
     places: Places<'_, P>,
@@ -339,10 +339,10 @@ pub(crate) fn each_element<'m, P: Geometry, T: Terms<P>>(
     }
 }
 
-/// The turn count of a geometry's number.
+/// The revolution count of a geometry's number.
 pub(crate) type CountOf<P> = <<P as Geometry>::Real as Real>::Count;
 
-/// The twist of a torsion spring, `None` where it is undefined.
+/// The torsion angle of a torsion spring, `None` where it is undefined.
 #[inline(always)]
 pub(crate) fn twist_of<P: Geometry>(
     spring: &TorsionSpring<P::Space>,
@@ -364,7 +364,7 @@ fn twist_apart<P: Geometry>(
     twist_here(spring, bodies, turns)
 }
 
-/// The gradient of a torsion spring's twist in the axes of its first body, `None` where it is undefined.
+/// The gradient of a torsion spring's angle in the axes of its first body, `None` where it is undefined.
 #[inline(always)]
 pub(crate) fn gradient_of<P: Geometry>(
     spring: &TorsionSpring<P::Space>,

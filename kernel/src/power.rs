@@ -1,8 +1,8 @@
-//! Who changes the energy of a state, and how fast: loads, inputs, moved ground, dampers.
+//! The powers of loads, inputs, moved ground and dampers, which change the energy of a state.
 //!
-//! `(model, state) => powers`, in the model's precision; for hosts, which judge a run by them. With the energy E
-//! of [`crate::energy`], `dE/dt = loads + inputs + ground − dampers`, whatever the pose: springs and gravity only
-//! turn one energy into another. Not known here: a jump of moved ground, which changes the energy at once.
+//! `(model, state) => powers`, in the model's precision; for hosts, which evaluate a run by them. With the energy E of
+//! [`crate::energy`], `dE/dt = loads + inputs + ground − dampers`, whatever the pose: springs and gravity only convert
+//! energy. Not included: a jump of moved ground, which changes the energy at once.
 
 use crate::forces::{
     At, Dampers, DampersLeft, Evaluation, ExplicitDampers, Instant, Memories, Wrench,
@@ -23,20 +23,20 @@ use crate::status::Cause;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Power<R> {
-    /// \[W\] what loads give to the bodies.
+    /// \[W\] of loads on the bodies.
     pub loads: R,
-    /// \[W\] what inputs give to them: forces, torques, actuators.
+    /// \[W\] of inputs on the bodies: forces, torques, actuators.
     pub inputs: R,
-    /// \[W\] what moved ground gives through springs and dampers.
+    /// \[W\] of moved ground through springs and dampers.
     pub ground: R,
-    /// \[W\] what dampers take, those at moved ground included.
+    /// \[W\] dissipated by dampers, including those at moved ground.
     pub dampers: R,
 }
 
-/// The powers in a state, loads as they act in its step of `step_size` \[s\], dampers by their law `c·v²`.
+/// The powers in a state, with loads active in its step of `step_size` \[s\], dampers by their law `c·v²`.
 ///
 /// # Errors
-/// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined.
+/// [`Cause::UndefinedTwist`] names the first torsion spring whose torsion angle is undefined.
 pub fn power<M: ModelOwner>(
     model: &M,
     state: &State<M>,
@@ -66,7 +66,7 @@ pub fn power<M: ModelOwner>(
     push_loads_and_inputs(&view, &[], state.step, places, wrenches.as_mut());
     let inputs = into_bodies(wrenches.as_ref());
 
-    // What springs, and springs and dampers, give to the bodies and take from moved ground.
+    // The power of springs, and of springs and dampers, on the bodies and from moved ground.
     let with = forces::<M, ExplicitDampers>(model, state, into_bodies)?;
     let without = forces::<M, DampersLeft>(model, state, into_bodies)?;
     let mut ground = [RealOf::<M>::ZERO; 2];
@@ -93,8 +93,8 @@ pub fn power<M: ModelOwner>(
     Ok(Power { loads, inputs: inputs + supplied, ground: whole, dampers })
 }
 
-/// \[W\] what drives among the laws give, and what dampers take beyond what they take from the bodies: of laws' own
-/// freedoms; less what a drive gives by its dampers.
+/// \[W\] the power of drives among the laws, and the power of dampers beyond that taken from the bodies: on the laws'
+/// internal degrees of freedom, minus the power of a drive's dampers.
 fn of_drives<M: ModelOwner>(
     view: &ModelRef<'_, M::Precision, M::Terms>,
     state: &State<M>,
@@ -122,7 +122,7 @@ fn of_drives<M: ModelOwner>(
     sums
 }
 
-/// What all forces of a state give to the bodies, loads apart.
+/// The power of all forces of a state on the bodies, without loads.
 fn forces<M: ModelOwner, D: Dampers>(
     model: &M,
     state: &State<M>,

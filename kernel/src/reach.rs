@@ -1,33 +1,33 @@
-//! Ways between points beside free lengths, and what a star of TSDAs is beside its rest.
+//! Displacements between points relative to free lengths, and spring triples relative to their reference position.
 //!
-//! What a geometry tells the law of a TSDA: a way and, where that knows no better, by how much its square is more
-//! than that of the free length. A precision that keeps stars at rest tells how far their centre is from there.
+//! The input of a TSDA's law from a geometry: a displacement and, where it is more precise, the difference of its
+//! square to that of the free length. A precision with reference data for triples gives the offset of their centre.
 
 use crate::space::Linear;
 
-/// The way from one point to another, and what is known of its length beside a free one.
+/// The displacement from one point to another, and its length relative to a free one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach<V: Linear> {
     /// \[m\] world axes.
     pub way: V,
-    /// \[m²\] by how much its square is more than that of the free length, `None` where the way tells as well.
+    /// \[m²\] the square minus that of the free length, `None` where the displacement is as precise.
     pub more: Option<V::Real>,
 }
 
-/// A TSDA of a star at rest, in the axes of its second body. With o what the star's centre is off and w the way at
-/// rest, L² − L0² is (w² − L0²) − o·(2w − o): its digits are those of o.
+/// A TSDA of a triple in its reference state, in the axes of its second body. With o the offset of the triple's centre
+/// and w the reference displacement, L² − L0² is (w² − L0²) − o·(2w − o): it has the precision of o.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AtRest<V: Linear> {
-    /// \[m\] from where the star's centre rests to the point of B.
+    /// \[m\] from the reference position of the triple's centre to the point of B.
     pub way: V,
     /// \[m²\] its square.
     pub square: V::Real,
-    /// \[m²\] by how much that is more than the square of the free length.
+    /// \[m²\] the square minus that of the free length.
     pub more: V::Real,
 }
 
 impl<V: Linear> AtRest<V> {
-    /// The reach when the centre is `off` \[m\] from where it rests.
+    /// The displacement for a centre `off` \[m\] from its reference position.
     #[inline(always)]
     pub(crate) fn reach(&self, off: V) -> Reach<V> {
         let way = self.way - off;
@@ -36,22 +36,22 @@ impl<V: Linear> AtRest<V> {
     }
 }
 
-/// Where the centre of a star is beside where it rests in B.
+/// The position of a triple's centre relative to its reference position in B.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Beside<V: Linear> {
-    /// \[m\] how far it is off, world axes.
+    /// \[m\] its offset, world axes.
     pub off: V,
-    /// \[m\] its arm from the centre of mass of A, world axes.
+    /// \[m\] its lever arm from the centre of mass of A, world axes.
     pub arm_a: V,
-    /// \[m\] its arm from the centre of mass of B.
+    /// \[m\] its lever arm from the centre of mass of B.
     pub arm_b: V,
 }
 
-/// What the centre of a further star is beyond that of the first, which belongs to the same bodies.
+/// The position of a further triple's centre relative to the first one's, between the same bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Beyond<V: Linear> {
-    /// \[m\] by how much more it is off, world axes.
+    /// \[m\] the difference of their offsets, world axes.
     pub off: V,
-    /// \[m\] the way there in A, world axes.
+    /// \[m\] the displacement between them in A, world axes.
     pub way: V,
 }

@@ -1,7 +1,7 @@
-//! Read-outs: what a plant's sensors see, computed when asked for.
+//! Read-outs: values of a plant's sensors, computed on demand.
 //!
-//! `(read-out, model, state) => reading`, in the model's precision. A model without read-outs
-//! carries none: a read-out is a constant of its own that names bodies, groups or springs.
+//! `(read-out, model, state) => reading`, in the model's precision. A read-out is a separate constant that refers to
+//! bodies, groups or springs; a model does not contain read-outs.
 
 use core::ops::Deref;
 
@@ -23,17 +23,17 @@ use crate::space::{Linear, Moment as _};
 use crate::state::State;
 use crate::vector::Vec3;
 
-/// What is read.
+/// The quantity that is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Readout<P: Geometry> {
-    /// \[rad\] the twist of a torsion spring, unwrapped.
+    /// \[rad\] the torsion angle of a torsion spring, unwrapped.
     JointAngle {
         /// Its index among the torsion springs.
         spring: u16,
-        /// \[rad\] what is shown at a twist of 0.
+        /// \[rad\] the value at a torsion angle of 0.
         offset: P::Real,
     },
-    /// \[rad/s\] the rate of that twist.
+    /// \[rad/s\] the rate of that torsion angle.
     JointRate {
         /// The spring's index among the torsion springs.
         spring: u16,
@@ -56,7 +56,7 @@ pub enum Readout<P: Geometry> {
     TsdaForce {
         /// The TSDA's group.
         group: u16,
-        /// Its number in the group.
+        /// Its index in the group.
         element: u16,
     },
     /// \[N\] the force of a joint on its second body, world: springs, dampers and actuators.
@@ -64,30 +64,29 @@ pub enum Readout<P: Geometry> {
         /// The joint's group.
         group: u16,
     },
-    /// \[m/s², rad/s\] specific force and angular rate at a point of a body, body axes: what an
-    /// inertial measurement unit fixed there shows.
+    /// \[m/s², rad/s\] specific force and angular rate at a point of a body, body axes: an inertial measurement unit.
     Imu {
         /// The body.
         body: BodyIndex,
         /// The point in body axes.
         point: P::Local,
     },
-    /// \[N, N·m, m\] the value of an input at the present time, which the next step holds.
+    /// \[N, N·m, m\] the value of an input at the present time, which the next step uses.
     Input {
         /// The input.
         input: InputIndex,
     },
-    /// What a law shows, in the unit of its [`Quantity`](crate::laws::Quantity).
+    /// An output of a law, in the unit of its [`Quantity`](crate::laws::Quantity).
     Law {
         /// The law's row.
         law: LawIndex,
-        /// The place of the quantity among the law's.
+        /// The index of the quantity among the law's.
         quantity: u8,
     },
 }
 
 impl<P: Geometry> Readout<P> {
-    /// The sensor of a read-out of poses and velocities alone; `None` of one of forces or inputs.
+    /// The sensor of a read-out of poses and velocities only; `None` for one of forces or inputs.
     #[inline(always)]
     #[must_use]
     pub fn sensor(&self) -> Option<Sensor<P>> {
@@ -121,7 +120,7 @@ impl<P: Geometry> Readout<P> {
     }
 }
 
-/// What a read-out shows.
+/// The value of a read-out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Reading<R> {
@@ -139,7 +138,7 @@ pub enum Reading<R> {
 }
 
 impl<R: Real> Reading<R> {
-    /// The reading of a quantity that is a number; `None` for a vector.
+    /// The reading of a scalar quantity; `None` for a vector.
     pub fn scalar(self) -> Option<R> {
         match self {
             Reading::Scalar(value) => Some(value),
@@ -147,7 +146,7 @@ impl<R: Real> Reading<R> {
         }
     }
 
-    /// The reading of a quantity that is a vector; `None` for a number.
+    /// The reading of a vector quantity; `None` for a scalar.
     pub fn vector(self) -> Option<Vec3<R>> {
         match self {
             Reading::Vector(value) => Some(value),
@@ -161,8 +160,8 @@ where
     H: Deref<Target: ModelOwner + Sized>,
     S: Scheme,
 {
-    /// Reads a sensor in the present state; `None` where the read-out names what the model lacks
-    /// or the twist is undefined. Only an inertial measurement unit costs a force evaluation.
+    /// Reads a sensor in the present state; `None` where the read-out refers to a part that the model lacks or the
+    /// torsion angle is undefined. Only an inertial measurement unit costs a force evaluation.
     pub fn read(
         &self,
         readout: &Readout<<H::Target as ModelOwner>::Precision>,
@@ -171,7 +170,7 @@ where
     }
 }
 
-/// Reads a sensor in a state of a model, loads as they act for steps of `step_size` \[s\].
+/// Reads a sensor in a state of a model, with loads active for steps of `step_size` \[s\].
 pub fn read<M: ModelOwner>(
     model: &M,
     state: &State<M>,
@@ -208,7 +207,7 @@ pub fn read<M: ModelOwner>(
             let rate = M::Precision::spin(&bodies.get(body.row())?.angular_velocity);
             let gravity = view.gravity.first().copied().unwrap_or(Linear::ZERO);
             let end = End::new(&view, places, body, Some(bodies));
-            // Arm, rates and accelerations in body axes.
+            // Lever arm, rates and accelerations in body axes.
             let arm = end.to_axes(end.place(&point).1);
             let centre = end.to_axes(wrench.force * constants.inverse_mass - gravity);
             let torque = wrench.torque - rate.commutator(constants.inertia.scale(rate));
@@ -237,7 +236,7 @@ pub fn read<M: ModelOwner>(
     }
 }
 
-/// The tension of a group's TSDA: spring, damper and actuators; `None` of another law.
+/// The tension of a group's TSDA: spring, damper and actuators; `None` for another law.
 #[inline(always)]
 fn tension<P: Geometry, T: Terms<P>>(
     view: &ModelRef<'_, P, T>,

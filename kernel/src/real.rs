@@ -1,20 +1,19 @@
 //! The arithmetic of forces, wrenches and velocities.
 //!
-//! `Real` is the whole of what an element law or a scheme may do with a number: the four
-//! operations, the square root, comparison and the polynomial coefficients of its precision.
-//! Each is correctly rounded or exact, so a written order of operations gives the same bits on
-//! every target. It offers no fused operation and no function of the standard library.
+//! `Real` is the complete arithmetic of element laws and schemes: the four operations, the square root, comparison and
+//! the polynomial coefficients of its precision. Each operation is correctly rounded or exact, so a written order of
+//! operations gives the same bits on every target. There is no fused operation and no function of the standard library.
 //!
-//! A number may be several, one per lane. What a step decides by a number is therefore said with
-//! `choose!` and its like: a branch for one number, both ways and a selection for lanes.
+//! A number may be several, one per lane. A decision on a number is therefore written with `choose!` and similar
+//! functions: a branch for one number, both branches and a selection for lanes.
 
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use crate::words::{Word, WordSource};
 
-/// A constant, rounded to each precision by the compiler: a target without double precision in
-/// hardware would convert a table of `f64` at run time, by a routine.
+/// A constant, rounded to each precision by the compiler: a target without double precision in hardware would convert a
+/// table of `f64` at run time, by a routine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constant {
     /// In double precision.
@@ -31,11 +30,11 @@ impl Constant {
     }
 }
 
-/// What a comparison tells: one truth, or one per lane.
+/// The result of a comparison: one mask, or one per lane.
 pub trait Truth: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
-    /// Whether it holds in any lane.
+    /// Whether it is set in any lane.
     fn any(self) -> bool;
-    /// Whether it holds in every lane.
+    /// Whether it is set in every lane.
     fn all(self) -> bool;
 }
 
@@ -50,9 +49,9 @@ impl Truth for bool {
     }
 }
 
-/// What can be taken lane by lane from one or another.
+/// A value that can be selected lane by lane.
 pub trait Lanewise<R: Real>: Copy {
-    /// In each lane `then` where `truth` holds, else `otherwise`.
+    /// `then` in each lane where `truth` is set, else `otherwise`.
     fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self;
 }
 
@@ -86,11 +85,11 @@ pub trait Real:
     + Sync
     + 'static
 {
-    /// How many numbers it is: 1, or one per lane.
+    /// The number of lanes.
     const LANES: usize;
-    /// What its comparisons tell.
+    /// The result of its comparisons.
     type Truth: Truth;
-    /// A turn count, one per lane.
+    /// A revolution count, one per lane.
     type Count: Copy;
 
     /// 0.
@@ -107,7 +106,7 @@ pub trait Real:
     const FRAC_PI_2: Self;
     /// π/4, rounded once.
     const FRAC_PI_4: Self;
-    /// tan(π/8), rounded once: where the arctangent's argument reduction begins.
+    /// tan(π/8), rounded once: the start of the arctangent's argument reduction.
     const TAN_PI_8: Self;
     /// Coefficients of `atan(t)/t` in powers of t², for |t| ≤ tan(π/8).
     ///
@@ -124,9 +123,9 @@ pub trait Real:
     fn constant(value: Constant) -> Self;
     /// The value in double precision, exact.
     fn to_f64(self) -> f64;
-    /// A number near a count of steps, exact below 2^24 (f32) or 2^53 (f64).
+    /// The number nearest to a count of steps, exact below 2^24 (f32) or 2^53 (f64).
     fn from_u64(value: u64) -> Self;
-    /// The number nearest to a turn count.
+    /// The number nearest to a revolution count.
     fn from_i32(value: i32) -> Self;
     /// The correctly rounded square root.
     fn sqrt(self) -> Self;
@@ -138,7 +137,7 @@ pub trait Real:
         }
         values
     }
-    /// [`Self::roots`] for who has little else at hand: by a call where that is cheaper then.
+    /// [`Self::roots`] where little else can be computed meanwhile: by a call where that is cheaper.
     #[inline(always)]
     fn roots_apart<const N: usize>(values: [Self; N]) -> [Self; N] {
         Self::roots(values)
@@ -147,37 +146,37 @@ pub trait Real:
     fn is_finite(self) -> bool;
     /// The number's stored word.
     fn word(self) -> Word;
-    /// The number of the next word.
+    /// The number from the next word.
     fn from_words(source: &mut impl WordSource) -> Self;
 
-    /// A truth of every lane.
+    /// A mask of every lane.
     fn truth(holds: bool) -> Self::Truth;
     /// Whether the numbers are equal.
     fn equals(self, other: Self) -> Self::Truth;
-    /// Whether this number is the smaller.
+    /// Whether this number is the smaller one.
     fn less_than(self, other: Self) -> Self::Truth;
-    /// Whether this number is not the larger, nor one of them no number.
+    /// Whether this number is at most the other; `false` for NaN.
     fn at_most(self, other: Self) -> Self::Truth;
-    /// In each lane `then` where `truth` holds, else `otherwise`.
+    /// `then` in each lane where `truth` is set, else `otherwise`.
     fn pick(truth: Self::Truth, then: Self, otherwise: Self) -> Self;
-    /// The number, where `truth` holds. A lane where it does not is left with no number, and makes
-    /// whatever it meets no number, either: who steps lanes looks for that.
+    /// The number, where `truth` is set. Other lanes become NaN, as does every result of theirs; code that steps lanes
+    /// detects that.
     fn only_where(self, truth: Self::Truth) -> Option<Self>;
 
-    /// Turn counts as they are stored, lane beside lane.
+    /// Revolution counts in stored form, one per lane.
     fn counts(stored: &[i32]) -> &[Self::Count];
-    /// [`Self::counts`], to be written.
+    /// [`Self::counts`], mutable.
     fn counts_mut(stored: &mut [i32]) -> &mut [Self::Count];
-    /// The number nearest to a turn count.
+    /// The number nearest to a revolution count.
     fn from_count(count: Self::Count) -> Self;
-    /// Whether a turn count is odd.
+    /// Whether a revolution count is odd.
     fn is_odd(count: Self::Count) -> Self::Truth;
-    /// Whether a turn count is 0.
+    /// Whether a revolution count is 0.
     fn is_nil(count: Self::Count) -> Self::Truth;
-    /// A turn count changed where `truth` holds: by 1 more where `up` holds, too, else by 1 less.
+    /// A revolution count changed where `truth` is set: incremented where `up` is set, too, else decremented.
     fn recount(count: Self::Count, truth: Self::Truth, up: Self::Truth) -> Self::Count;
 
-    /// `1/self`, or 0 where `self` is 0: the zero-force guard of coincident points.
+    /// `1/self`, or 0 where `self` is 0: avoids a division by zero for coincident points.
     #[inline(always)]
     fn reciprocal_or_zero(self) -> Self {
         if self == Self::ZERO { Self::ZERO } else { Self::ONE / self }
@@ -206,9 +205,9 @@ pub trait Real:
     }
 }
 
-/// `choose!(R, truth, then, otherwise)`: what `then` gives where `truth` holds, else what `otherwise`
-/// gives. One number takes a branch; lanes compute both and take of each what is theirs. No closures:
-/// the compiler need not inline them, which lanes need, see [`crate::step`].
+/// `choose!(R, truth, then, otherwise)`: the value of `then` where `truth` is set, else that of `otherwise`. One number
+/// takes a branch; lanes compute both and select. No closures: the compiler need not inline them, which lanes need, see
+/// [`crate::step`].
 macro_rules! choose {
     ($real:ty, $truth:expr, $then:expr, $otherwise:expr) => {{
         let truth = $truth;
@@ -222,7 +221,7 @@ macro_rules! choose {
 }
 pub(crate) use choose;
 
-/// What a [`Real`] of one number decides by, within its implementation.
+/// The comparisons of a [`Real`] with one lane, within its implementation.
 #[macro_export]
 macro_rules! one_lane {
     () => {
@@ -382,7 +381,7 @@ impl Real for f32 {
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
-    // In two halves, each of which an FPU without 64-bit conversions can take.
+    // In two halves, each of which an FPU without 64-bit conversions can convert.
     #[inline(always)]
     fn from_u64(value: u64) -> Self {
         let (high, low) = ((value >> 32) as u32, value as u32);

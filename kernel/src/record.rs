@@ -1,4 +1,4 @@
-//! What acts on two bodies: wrenches, records, directions.
+//! Forces on two bodies: wrenches, records, directions.
 //!
 //! `record => wrenches of its two bodies`.
 
@@ -22,8 +22,8 @@ impl<S: Space> Wrench<S> {
     }
 }
 
-/// What a group does to its two bodies, world axes: force and torque of A, and of B the opposite of its
-/// own torque; its force is the opposite of A's.
+/// The force pair of a group, world axes: force and torque on A, and the opposite of the torque on B; the force on B is
+/// the opposite of A's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Record<S: Space> {
     /// \[N\] force on A.
@@ -38,7 +38,7 @@ impl<S: Space> Record<S> {
     pub(crate) const ZERO: Self =
         Self { force: S::Vector::ZERO, torque_a: S::Moment::ZERO, torque_b: S::Moment::ZERO };
 
-    /// This and another.
+    /// The sum of this and another.
     #[inline(always)]
     pub(crate) fn with(&self, other: &Self) -> Self {
         Self {
@@ -49,17 +49,17 @@ impl<S: Space> Record<S> {
     }
 }
 
-/// A direction of freedom of two bodies: a unit force along u on the second and the opposite on the first.
+/// A direction of relative motion of two bodies: a unit force along u on the second and the opposite on the first.
 #[derive(Clone, Copy, Debug)]
 pub struct Direction<S: Space> {
-    /// u, world axes; 0 of moments alone.
+    /// u, world axes; 0 for moments only.
     pub along: S::Vector,
-    /// The moments `r × u` of a unit force along u on both bodies, each in its body's axes; the ground has none.
+    /// The moments `r × u` of a unit force along u on both bodies, each in its body's axes; 0 for the ground.
     pub moments: [S::Moment; 2],
 }
 
 impl<S: Space> Direction<S> {
-    /// One along which the rate is `by` times as large.
+    /// The direction scaled so that the rate is `by` times as large.
     #[inline(always)]
     #[must_use]
     pub fn scaled(&self, by: S::Real) -> Self {
@@ -67,7 +67,7 @@ impl<S: Space> Direction<S> {
     }
 }
 
-/// Adds a record to its two bodies; the world takes none.
+/// Adds a record to its two bodies; the world is skipped.
 #[inline(always)]
 pub(crate) fn apply<S: Space>(wrenches: &mut [Wrench<S>], a: usize, b: usize, record: &Record<S>) {
     if let Some(wrench) = wrenches.get_mut(a) {

@@ -1,11 +1,9 @@
-//! Finite rotations and the free rotor: how an orientation drifts.
+//! Finite rotations and the free rotor: the drift of an orientation.
 //!
-//! `(ω, h, orientation) => orientation`, and for the free rotors, of second and of fourth order,
-//! also `ω => ω`.
-//! A turn by the half angle x is `(cos x, sin x)`, from Taylor polynomials in x² and one
-//! renormalisation per drift: no trigonometric function, no root, no division. The truncated
-//! terms are below 2.7e-20 (f64) and 1e-12 (f32) at x = 0.05, the advised limit h·ω = 0.1, and
-//! below 3e-10 and 1e-7 at x = 0.5.
+//! `(ω, h, orientation) => orientation`, and for the free rotors, of second and of fourth order, also `ω => ω`. A
+//! rotation with the half angle x is `(cos x, sin x)`, from Taylor polynomials in x² and one renormalisation per drift:
+//! no trigonometric function, no root, no division. The truncated terms are below 2.7e-20 (f64) and 1e-12 (f32) at x =
+//! 0.05, the recommended limit h·ω = 0.1, and below 3e-10 and 1e-7 at x = 0.5.
 
 use crate::attitude::Attitude as _;
 use crate::body::Body;
@@ -15,21 +13,20 @@ use crate::real::{Real, Truth as _};
 use crate::space::{Linear as _, Moment, Space as _};
 use crate::vector::{Quaternion, Vec3};
 
-/// Turns by the rotation vector `2·half` in body axes (exponential map).
+/// Rotates by the rotation vector `2·half` in body axes (exponential map).
 #[inline(always)]
 pub fn turn_by<P: Geometry>(orientation: &mut P::Orientation, half: P::Moment) {
     P::Orientation::turn(orientation, half_turn(half));
     P::Orientation::renormalise(orientation);
 }
 
-/// The free rigid rotor over `time` \[s\]: second order, reversible; with quaternions the world's
-/// angular momentum is kept to rounding up to h·ω = 0.3, beyond that as well as the truncated
-/// turns are exact: within 4e-13 of it over 20 s at 0.6, 3e-10 at 1.1 (`tests/mechanics/orientation.rs`).
+/// The free rigid rotor over `time` \[s\]: second order, reversible; with quaternions the world's angular momentum is
+/// conserved to rounding up to h·ω = 0.3, beyond that to the accuracy of the truncated rotations: within 4e-13 of it
+/// over 20 s at 0.6, 3e-10 at 1.1 (`tests/mechanics/orientation.rs`).
 ///
-/// Symmetric splitting of the kinetic energy into its three axes (McLachlan 1993; Dullweber,
-/// Leimkuhler & McLachlan 1997): turns about x, y, z, y, x by h/2, h/2, h, h/2, h/2. Each is
-/// exact, for the rate about its own axis is constant. An axis at rest is skipped: the turn
-/// would change nothing.
+/// Symmetric splitting of the kinetic energy into its three axes (McLachlan 1993; Dullweber, Leimkuhler & McLachlan
+/// 1997): rotations about x, y, z, y, x by h/2, h/2, h, h/2, h/2. Each is exact, because the rate about its own axis is
+/// constant. An axis with rate 0 is skipped: the rotation would change nothing.
 #[inline(always)]
 pub fn free_rotor<P: Geometry>(
     body: &Body<P::Space>,
@@ -44,7 +41,7 @@ pub fn free_rotor<P: Geometry>(
     P::renormalise(orientation);
 }
 
-/// [`free_rotor`] in space but for what is done [after the turns](Geometry::renormalise).
+/// [`free_rotor`] in space without the final [renormalisation](Geometry::renormalise).
 #[inline(always)]
 pub(crate) fn turn_freely<P: Geometry>(
     body: &Body<P::Space>,
@@ -55,7 +52,7 @@ pub(crate) fn turn_freely<P: Geometry>(
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();
     if P::Real::LANES == 1 && w.x == zero && w.y == zero {
-        // What moves in a plane turns about z alone, and this is all that the five would do.
+        // In planar motion only the rotation about z is nonzero, so it equals all five.
         if w.z != zero {
             let turn = Turn::by(time * w.z);
             P::settle(rate);
@@ -70,7 +67,7 @@ pub(crate) fn turn_freely<P: Geometry>(
     five_turns::<P>(body, orientation, rate, time);
 }
 
-// Apart: turns in integers are long, and few bodies tumble.
+// Not inlined: integer rotations are long, and few bodies tumble.
 #[inline(never)]
 fn five_turns_apart<P: Geometry>(
     body: &Body<P::Space>,
@@ -96,14 +93,14 @@ fn five_turns<P: Geometry>(
     about_x::<P>(body, orientation, rate, half, none);
 }
 
-/// The free rigid rotor over `time` \[s\], which may be negative: fourth order, reversible; with
-/// quaternions the world's angular momentum L is kept to rounding as by [`free_rotor`].
+/// The free rigid rotor over `time` \[s\], which may be negative: fourth order, reversible; with quaternions the
+/// world's angular momentum L is conserved to rounding as by [`free_rotor`].
 ///
-/// A turn about one principal axis is exact and the only one made. Otherwise the kinetic energy
-/// `L²/2I₂ + ½(1/I₁ − 1/I₂)·L₁² + ½(1/I₃ − 1/I₂)·L₃²`, I₂ the middle inertia, is split (Touma &
-/// Wisdom 1994; Fassò 2003): the first term turns about L, exactly, and commutes with the others;
-/// those two turn about their axes, composed with the coefficients of [`crate::schemes::Pefrl`]. A body of
-/// two equal inertias takes one of them only: its flow is exact, too. For one lane.
+/// A rotation about one principal axis is exact and the only one needed then. Otherwise the kinetic energy
+/// `L²/2I₂ + ½(1/I₁ − 1/I₂)·L₁² + ½(1/I₃ − 1/I₂)·L₃²`, I₂ the middle inertia, is split (Touma & Wisdom 1994; Fassò
+/// 2003): the first term rotates about L, exactly, and commutes with the others; those two rotate about their axes,
+/// composed with the coefficients of [`crate::schemes::Pefrl`]. A body of two equal inertias needs one of them only:
+/// its flow is exact, too. For one lane.
 #[inline(always)]
 pub fn free_rotor_of_order_four<P: Geometry>(
     body: &Body<P::Space>,
@@ -126,7 +123,7 @@ pub fn free_rotor_of_order_four<P: Geometry>(
     P::renormalise(orientation);
 }
 
-/// The free rotor of a plane: one turn, exact.
+/// The free planar rotor: one exact rotation.
 #[inline(always)]
 fn turn_in_plane<P: Geometry>(orientation: &mut P::Orientation, rate: &P::Spin, time: P::Real) {
     turn_by::<P>(orientation, P::spin(rate) * (P::Real::HALF * time));
@@ -145,7 +142,7 @@ fn tumble<P: Geometry>(
     let (ratio, inverse_ratio) = (body.ratio.in_space(), body.inverse_ratio.in_space());
     let lies_between =
         |b: P::Real, a: P::Real, c: P::Real| (a <= b && b <= c) || (c <= b && b <= a);
-    // Of each of the other axes the part 1 − I/I₂ of its rate that turns about it alone.
+    // For each of the other axes the fraction 1 − I/I₂ of its rate, which rotates about it only.
     let (middle, (first, share), (second, other)) = if lies_between(y, x, z) {
         (y, (Axis::X, one - inverse_ratio.z), (Axis::Z, one - ratio.x))
     } else if lies_between(x, y, z) {
@@ -182,7 +179,7 @@ pub(crate) enum Axis {
     Z,
 }
 
-/// The quaternion of a turn by the rotation vector `2·half`.
+/// The quaternion of a rotation by the rotation vector `2·half`.
 #[inline(always)]
 pub(crate) fn half_turn<M: Moment>(half: M) -> Quaternion<M::Real> {
     let x2 = half.dot(half);
@@ -211,10 +208,10 @@ impl<R: Real> Turn<R> {
     }
 }
 
-/// The truth of a geometry's number.
+/// The mask of a geometry's number.
 pub(crate) type TruthOf<P> = <<P as Geometry>::Real as Real>::Truth;
 
-/// Turns all but the resting lanes.
+/// Rotates all except the resting lanes.
 #[inline(always)]
 pub(crate) fn turn_unless<P: Geometry>(
     orientation: &mut P::Orientation,
@@ -226,7 +223,7 @@ pub(crate) fn turn_unless<P: Geometry>(
     keep::<P>(orientation, resting, &start);
 }
 
-/// Turns about an axis, with cosine and sine of half the angle, all but the resting lanes.
+/// Rotates about an axis, with cosine and sine of half the angle, all except the resting lanes.
 #[inline(always)]
 fn turn_about<P: Geometry, const AXIS: usize>(
     orientation: &mut P::Orientation,
@@ -240,7 +237,7 @@ fn turn_about<P: Geometry, const AXIS: usize>(
     keep::<P>(orientation, resting, &start);
 }
 
-/// Resting lanes have their start again. Where none rests nothing is stored: x86 stores by a mask, and slowly.
+/// Restores the start in resting lanes. Without resting lanes nothing is stored: masked stores are slow on x86.
 #[inline(always)]
 fn keep<P: Geometry>(
     orientation: &mut P::Orientation,
@@ -252,7 +249,7 @@ fn keep<P: Geometry>(
     }
 }
 
-// In lanes `without` an axis turns nothing.
+// In the lanes `without` there is no rotation about the axis.
 #[inline(always)]
 pub(crate) fn about_x<P: Geometry>(
     body: &Body<P::Space>,

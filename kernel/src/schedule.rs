@@ -1,12 +1,10 @@
-//! What happens when: load windows and tables in whole steps, the inputs' present signals.
+//! The timing of loads and inputs: load windows and tables in whole steps, the inputs' present signals.
 //!
-//! `(times, step) => windows, knots in steps; (table, step n, part θ) => signal`. A signal is set by
-//! the caller and held, or follows a table that is held or linear between its knots, sampled at the
-//! time of each stage, θ of step n:
-//! `value + slope·((n − first + θ)·h + offset)`, `first` the knot's first step and `offset` what lies
-//! between the knot's time and that step. What is read between two steps is what the next begins
-//! with. At θ = 1 a knot that falls on the step's end does not act yet: a jump belongs to the step
-//! it begins.
+//! `(times, step) => windows, knots in steps; (table, step n, part θ) => signal`. A signal is set by the caller and
+//! held, or follows a table that is held or linear between its knots, sampled at the time of each stage, θ of step n:
+//! `value + slope·((n − first + θ)·h + offset)`, `first` the knot's first step and `offset` the time from the knot to
+//! that step. A value read between two steps is the one at the start of the next. At θ = 1 a knot at the step's end
+//! does not act yet: a jump belongs to the step that it begins.
 
 use crate::elements::input::{Input, InputKind, Knot};
 use crate::geometry::Geometry;
@@ -45,14 +43,13 @@ impl LoadWindow {
     }
 }
 
-/// The first step that starts at or after `time`; a multiple of the step within 1e-9 counts as
-/// exact.
+/// The first step that starts at or after `time`; a multiple of the step within 1e-9 counts as exact.
 pub(crate) fn first_step(time: f64, step: f64) -> u64 {
     if time <= 0.0 {
         return 0;
     }
     let steps = time / step;
-    // The conversion saturates: an infinite end becomes the last step that can be counted.
+    // The conversion saturates: an infinite end becomes the largest step number.
     let below = steps as u64;
     let excess = steps - below as f64;
     if excess <= 1e-9 * steps {
@@ -63,7 +60,7 @@ pub(crate) fn first_step(time: f64, step: f64) -> u64 {
     }
 }
 
-/// Where a knot lies among a plant's steps.
+/// The position of a knot among a plant's steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct KnotStep<R> {
@@ -88,7 +85,7 @@ impl<R: Real> KnotStep<R> {
 pub struct Signal<R> {
     /// \[N, N·m or m\] by the kind of its input.
     pub value: R,
-    /// \[m/s\] of an anchor; unused by other kinds.
+    /// \[m/s\] for an anchor; unused by other kinds.
     pub rate: R,
 }
 
@@ -111,19 +108,19 @@ impl<R: Real> Words for Signal<R> {
     }
 }
 
-/// Where a stage lies among a plant's steps of size `h` \[s\].
+/// The position of a stage among a plant's steps of size `h` \[s\].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StageTime<R> {
     /// The step.
     pub(crate) step: u64,
-    /// The part of it that has passed, 0 to 1.
+    /// The elapsed fraction of it, 0 to 1.
     pub(crate) part: R,
     /// \[s\] the step size.
     pub(crate) h: R,
 }
 
-/// Brings the signals of tables to a stage; whether any changed. Kept apart, but for lanes: a step
-/// calls it more than once. Not called where there is no table.
+/// Samples the signals of tables at a stage; returns whether any changed. Not inlined, except for lanes: a step calls
+/// it more than once. Not called where there is no table.
 #[inline(always)]
 pub(crate) fn sample<P: Geometry>(
     inputs: &[Input<P>],
@@ -173,15 +170,15 @@ fn sample_here<P: Geometry>(
     changed
 }
 
-/// A knot counts as on a step's end within this part of the step: what
-/// [`first_step`] forgives of a time late in a run.
+/// A knot counts as at a step's end within this fraction of the step: the tolerance of [`first_step`] for a time late
+/// in a run.
 const ON_THE_END: Constant = Constant::new(0.01);
 
-/// The value of a table at a stage: that of its first knot before it, `None` without knots.
+/// The value of a table at a stage: that of the last knot before it, `None` without knots.
 #[inline(always)]
 fn table<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], at: StageTime<R>) -> Option<Signal<R>> {
     let StageTime { step: n, part, h } = at;
-    // Since a knot that lies within the step, negative before it.
+    // The time since a knot within the step, negative before it.
     let within = |knot: &KnotStep<R>| (part - R::ONE) * h + knot.offset;
     let mut begun = steps.partition_point(|knot| knot.first <= n);
     while let Some(knot) = steps.get(begun)
@@ -199,12 +196,12 @@ fn table<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], at: StageTime<R>) ->
         Some(steps) => (R::from_u64(steps) + part) * h + step.offset,
         None => within(step),
     };
-    // What is held stays so for ever, also where the time since is beyond what the number can hold.
+    // A held value stays constant, also where the elapsed time exceeds the number's range.
     let rise = choose!(R, knot.slope.equals(R::ZERO), R::ZERO, knot.slope * since);
     Some(Signal { value: knot.value + rise, rate: knot.slope })
 }
 
-/// Whether the ground jumps at the start of this step or within it, by a table that holds its values.
+/// Whether the ground jumps at the start of this step or within it, by a table with held values.
 pub(crate) fn ground_jumps<P: Geometry>(
     inputs: &[Input<P>],
     knots: &[Knot<P::Real>],
@@ -265,7 +262,7 @@ mod tests {
         let at = |n, part| table(&knots, &steps, StageTime { step: n, part, h: 0.01 }).unwrap();
         assert_eq!((at(1, 0.0).value, at(1, 0.0).rate), (0.0, 0.0));
         assert!((at(2, 0.0).value - 0.01).abs() < 1e-15 && at(2, 0.0).rate == 2.0);
-        // A stage within the step sees it from its time on.
+        // A stage within the step uses it from its time on.
         assert_eq!((at(1, 0.4).value, at(1, 0.4).rate), (0.0, 0.0));
         assert!((at(1, 0.75).value - 0.005).abs() < 1e-15 && at(1, 0.75).rate == 2.0);
         assert_eq!(at(1, 1.0).value.to_bits(), at(2, 0.0).value.to_bits());

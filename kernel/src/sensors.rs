@@ -1,4 +1,4 @@
-//! What sensors of poses and velocities read, and tables over them.
+//! Values of sensors of poses and velocities, and tables over them.
 //!
 //! `(sensor, model, state) => motion; tables over sensors, state => signals`, in the model's precision.
 
@@ -14,7 +14,7 @@ use crate::space::Linear as _;
 use crate::state::State;
 use crate::vector::Vec3;
 
-/// What such a sensor reads.
+/// The value of such a sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Motion<R> {
     /// An angle or a rate.
@@ -23,7 +23,8 @@ pub(crate) enum Motion<R> {
     Vector(Vec3<R>),
 }
 
-/// What a sensor reads in a state; `None` where it names what the model lacks or the twist is undefined.
+/// The value of a sensor in a state; `None` where it refers to a part that the model lacks or the torsion angle is
+/// undefined.
 #[inline(always)]
 pub(crate) fn motion<M: ModelOwner>(
     view: &ModelRef<'_, M::Precision, M::Terms>,
@@ -58,8 +59,8 @@ pub(crate) fn motion<M: ModelOwner>(
     })
 }
 
-/// Brings the signals of tables over sensors to a state; whether any changed. A twist that is undefined
-/// leaves its signal as it is.
+/// Samples the signals of tables over sensors in a state; returns whether any changed. An undefined torsion angle
+/// leaves its signal unchanged.
 pub(crate) fn sample_over<M: ModelOwner>(
     model: &M,
     state: &mut State<M>,

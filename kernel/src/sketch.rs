@@ -1,8 +1,8 @@
-//! A const model that a person writes: bodies and elements by name, sizes counted by the compiler.
+//! A const model written by hand: bodies and elements, with sizes counted by the compiler.
 //!
-//! `numbers in double precision => Model, in flash`. [`Sketch`] exists while the compiler runs;
-//! [`model!`](crate::model!) counts it, rounds it once to the precision and checks it. It has the
-//! bits of the run-time builder's model with the same elements in the same order.
+//! `numbers in double precision => Model, in flash`. [`Sketch`] exists at compile time only; [`model!`](crate::model!)
+//! counts it, rounds it once to the precision and checks it. It has the bits of the run-time builder's model with the
+//! same elements in the same order.
 
 mod bushings;
 mod round;
@@ -20,14 +20,14 @@ use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::model::Group;
 use crate::vector::{Quaternion, Vec3};
 
-/// Most bodies of a sketch; a scene in TOML has room for more.
+/// Largest number of bodies of a sketch; a scene in TOML has no such limit.
 const BODIES: usize = 32;
-/// Most groups, torsion springs and loads each.
+/// Largest number of groups, of torsion springs and of loads.
 const GROUPS: usize = 64;
-/// Most points, and most TSDAs.
+/// Largest number of points, and of TSDAs.
 const POINTS: usize = 256;
 
-/// Where a body is at t = 0, and how it moves.
+/// The initial state of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// \[m\] centre of mass, world.
@@ -60,7 +60,7 @@ pub struct Spring {
     pub free_length: f64,
 }
 
-/// A model in the making, in double precision. Used in a `const`, it costs no memory at run time.
+/// A model under construction, in double precision. Used in a `const`, it costs no memory at run time.
 #[derive(Clone, Copy, Debug)]
 pub struct Sketch {
     bodies: List<Body<f64>, BODIES>,
@@ -90,7 +90,7 @@ impl<T: Copy, const N: usize> List<T, N> {
     }
 
     const fn push(mut self, item: T) -> Self {
-        assert!(self.count < N, "a sketch has room for no more; write a scene");
+        assert!(self.count < N, "the capacity of a sketch is exceeded; use a scene");
         self.items[self.count] = item;
         self.count += 1;
         self
@@ -130,7 +130,7 @@ impl Default for Sketch {
 }
 
 impl Sketch {
-    /// Nothing yet.
+    /// An empty sketch.
     #[must_use]
     pub const fn new() -> Self {
         let body = BodyIndex::WORLD;
@@ -188,10 +188,10 @@ impl Sketch {
         }
     }
 
-    /// The field of gravity \[m/s²\].
+    /// Sets gravity \[m/s²\].
     ///
     /// # Panics
-    /// Where it is given twice or not finite; in a `const` the compiler says so.
+    /// Where it is set twice or not finite; in a `const` at compile time.
     #[must_use]
     pub const fn gravity(mut self, field: [f64; 3]) -> Self {
         self.gravity = self.gravity.push(vector(field));
@@ -201,7 +201,7 @@ impl Sketch {
     /// The next body, the first is `BodyIndex(0)`: mass \[kg\] and principal inertia \[kg·m²\].
     ///
     /// # Panics
-    /// Where a number is out of range, or there is no room for more bodies.
+    /// Where a number is out of range, or the capacity for bodies is exceeded.
     #[must_use]
     pub const fn body(mut self, mass: f64, inertia: [f64; 3], start: Start) -> Self {
         let [x, y, z] = inertia;
@@ -209,7 +209,7 @@ impl Sketch {
         assert!(x > 0.0 && y > 0.0 && z > 0.0, "a moment of inertia is not positive");
         let slack = 1.0 + 1e-9;
         let triangle = x <= (y + z) * slack && y <= (z + x) * slack && z <= (x + y) * slack;
-        assert!(triangle, "an inertia breaks the triangle inequality");
+        assert!(triangle, "an inertia violates the triangle inequality");
         self.bodies = self.bodies.push(Body {
             mass,
             inertia: vector(inertia),
@@ -244,14 +244,14 @@ impl Sketch {
         self.stars(between, &[points[0]], &[points[1]], spring)
     }
 
-    /// The TSDAs of one joint: each of the `centres` \[m\] of the first body is joined to all `arms`
-    /// \[m\] of the second, 1 to 3. A spherical joint is one centre with three arms, a revolute
-    /// two with the same three; in the plane a revolute is one centre with two arms. Without a free
-    /// length each centre has an arm of its own: a spherical joint is one such pair, a revolute two.
+    /// The TSDAs of one joint: each of the `centres` \[m\] of the first body is joined to all `arms` \[m\], points of
+    /// the second, 1 to 3. A spherical joint is one centre with three legs, a revolute two with the same three
+    /// endpoints; in the plane a revolute is one centre with two legs. Without a free length each centre has one
+    /// endpoint, not shared: a spherical joint is one such pair, a revolute two.
     ///
     /// # Panics
-    /// Where a number is out of range or a list is full; without a free length there are as many arms
-    /// as centres.
+    /// Where a number is out of range or a list is full; without a free length, where `arms` and `centres` differ in
+    /// length.
     #[must_use]
     pub const fn stars(
         mut self,
@@ -263,11 +263,11 @@ impl Sketch {
         assert_not_negative(spring.stiffness);
         assert_not_negative(spring.damping);
         assert_not_negative(spring.free_length);
-        assert!(!centres.is_empty() && centres.len() <= 255, "a joint has 1 to 255 centres");
+        assert!(!centres.is_empty() && centres.len() <= 255, "a joint must have 1 to 255 centres");
         let bushing = spring.free_length == 0.0;
         let known =
             if bushing { arms.len() == centres.len() } else { !arms.is_empty() && arms.len() <= 3 };
-        assert!(known, "a star has one to three arms, without a free length one of its own");
+        assert!(known, "one to three legs are needed; without a free length, one leg per centre");
         let elements = if bushing { centres.len() } else { centres.len() * arms.len() };
         let damper = if spring.damping > 0.0 {
             DamperIndex(self.dampers.count as u16)
@@ -335,7 +335,7 @@ impl Sketch {
         let [a, b] = [self.orientation(between[0]), self.orientation(between[1])];
         let apart = [b.v.x - a.v.x, b.v.y - a.v.y, b.v.z - a.v.z];
         let same = b.w == a.w && dot(apart, apart) == 0.0;
-        assert!(same, "the bodies of a torsion spring begin with other axes; write a scene");
+        assert!(same, "the initial axes of a torsion spring's bodies differ; use a scene");
         let damper = if damping > 0.0 {
             let first = DamperIndex(self.dampers.count as u16);
             self.dampers = self.dampers.push(damping);
@@ -377,9 +377,8 @@ impl Sketch {
         }
     }
 
-    /// Counts of bodies, groups, points, TSDAs, bushings, dampers, torsion springs, fields of
-    /// gravity, loads, revolute and universal joints of bushings: sizes of [`Model`](crate::Model), which
-    /// [`model!`](crate::model!) fills in.
+    /// The numbers of bodies, groups, points, TSDAs, bushings, dampers, torsion springs, gravity, loads, revolute and
+    /// universal joints of bushings: sizes of [`Model`](crate::Model), filled in by [`model!`](crate::model!).
     #[must_use]
     pub const fn counts(&self) -> [usize; 11] {
         [

@@ -1,11 +1,10 @@
-//! Snapshots: a plant's state as plain bytes, and back, exactly.
+//! Snapshots: a plant's state as bytes, restored exactly.
 //!
-//! `plant => bytes => plant`. Little-endian: magic `DBDS`, version (u16), fingerprint of the scheme
-//! (u32), fingerprint of model, precision and step (u64), the state's words in the order of its
-//! hash, then two words per input, then, of a scheme that remembers the step before, whether it does and
-//! its words per body, then the CRC-32 (IEEE 802.3, reflected) of all before it. A
-//! plant of the same model, scheme and step, on whatever target, goes on with the very same bits.
-//! Bytes that do not fit are refused and change nothing.
+//! `plant => bytes => plant`. Little-endian: magic `DBDS`, version (u16), fingerprint of the scheme (u32), fingerprint
+//! of model, precision and step (u64), the state's words in the order of its hash, then two words per input, then, for
+//! a scheme with a memory of the last step, whether it is valid and its words per body, then the CRC-32 (IEEE 802.3,
+//! reflected) of all before it. A plant of the same model, scheme and step, on any target, continues with the same
+//! bits. Invalid bytes are refused and change nothing.
 
 use core::ops::Deref;
 
@@ -18,47 +17,55 @@ use crate::state::State;
 use crate::words::{Finite, Word, WordSource, WordVisitor, Words};
 
 const MAGIC: [u8; 4] = *b"DBDS";
-/// Of the layout; another one is refused.
+/// The version of the layout; others are refused.
 const VERSION: u16 = 2;
 /// Magic, version, fingerprints of scheme and model.
 const HEADER: usize = 18;
 const CHECKSUM: usize = 4;
 
-/// Why a snapshot was not taken, or refused.
+/// Why a snapshot was not written, or refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum SnapshotError {
-    /// The buffer is shorter than this many bytes.
+    /// The buffer is shorter than the given number of bytes.
     Buffer(usize),
-    /// The plant has failed; it has no state worth keeping.
+    /// The plant has failed; its state is not saved.
     Failed,
-    /// The bytes are not a snapshot, or not a whole one.
+    /// The bytes are not a snapshot, or an incomplete one.
     Format,
     /// The layout is that of another version.
     Version(u16),
-    /// A bit was changed.
+    /// The checksum does not match.
     Checksum,
-    /// It is the state of another model, precision or step.
+    /// It belongs to another model, precision or step.
     Model,
-    /// It is of another scheme, way of damping, number of Newton iterations or ρ∞.
+    /// It belongs to another scheme, damping method, number of Newton iterations or ρ∞.
     Scheme,
-    /// It holds a number that is not finite.
+    /// It contains a number that is not finite.
     NotFinite,
 }
 
 impl core::fmt::Display for SnapshotError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            SnapshotError::Buffer(size) => write!(f, "the snapshot takes {size} bytes"),
-            SnapshotError::Failed => f.write_str("the plant has failed"),
-            SnapshotError::Format => f.write_str("these bytes are not a whole snapshot"),
-            SnapshotError::Version(found) => write!(f, "version {found}, known is {VERSION}"),
-            SnapshotError::Checksum => f.write_str("the checksum is wrong"),
-            SnapshotError::Model => f.write_str("a snapshot of another model, precision or step"),
-            SnapshotError::Scheme => {
-                f.write_str("a snapshot of another scheme, damping or number of iterations")
+            SnapshotError::Buffer(size) => {
+                write!(f, "buffer too small: the snapshot needs {size} bytes")
             }
-            SnapshotError::NotFinite => f.write_str("the snapshot holds a number not finite"),
+            SnapshotError::Failed => f.write_str("the plant has failed; its state cannot be saved"),
+            SnapshotError::Format => f.write_str("not a snapshot, or an incomplete one"),
+            SnapshotError::Version(found) => {
+                write!(f, "unsupported snapshot version {found}, expected {VERSION}")
+            }
+            SnapshotError::Checksum => f.write_str("checksum mismatch"),
+            SnapshotError::Model => {
+                f.write_str("the snapshot belongs to another model, precision or step")
+            }
+            SnapshotError::Scheme => f.write_str(
+                "the snapshot belongs to another scheme, damping method or number of iterations",
+            ),
+            SnapshotError::NotFinite => {
+                f.write_str("the snapshot contains a number that is not finite")
+            }
         }
     }
 }
@@ -70,7 +77,7 @@ where
     H: Deref<Target: ModelOwner + Sized>,
     S: Scheme,
 {
-    /// The bytes that a snapshot of this plant takes.
+    /// The size of a snapshot of this plant \[bytes\].
     #[must_use]
     pub fn snapshot_size(&self) -> usize {
         let mut count = Count(0);
@@ -78,7 +85,7 @@ where
         HEADER + count.0 + CHECKSUM
     }
 
-    /// Writes the state to the start of `buffer`; the number of bytes written.
+    /// Writes the state to the start of `buffer`; returns the number of bytes written.
     ///
     /// # Errors
     /// [`SnapshotError::Buffer`], [`SnapshotError::Failed`].
@@ -99,18 +106,17 @@ where
         Ok(size)
     }
 
-    /// Takes the state from a snapshot of the same model, precision, scheme and step.
+    /// Restores the state from a snapshot of the same model, precision, scheme and step.
     ///
     /// # Errors
-    /// A [`SnapshotError`]; the plant is then as it was. A failed plant runs again after a
-    /// successful call.
+    /// A [`SnapshotError`]; the plant is then unchanged. A failed plant runs again after a successful call.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
         let size = self.snapshot_size();
         let (state, mut source, mut finite) =
             self.base.read_state(bytes, size, scheme_fingerprint(self.scheme()))?;
         let begun = match S::REMEMBERS.then(|| source.take(4)) {
             Some(1) => true,
-            // Not begun all words are zero: one state has one snapshot.
+            // Without a valid memory all words are zero: a state has exactly one snapshot.
             Some(0) if source.bytes.iter().any(|byte| *byte != 0) => {
                 return Err(SnapshotError::Format);
             }
@@ -134,7 +140,7 @@ where
         if S::REMEMBERS {
             let remembered = self.remembered();
             visitor.word(Word::I32(i32::from(remembered.is_some())));
-            // Not begun it has the words, too: a snapshot's size is that of its plant.
+            // Written also without a valid memory: the size of a snapshot depends on the plant only.
             let memory = remembered
                 .map_or_else(|| self.model().per_body(S::Memory::default()), Clone::clone);
             memory.as_ref().iter().for_each(|of_body| S::visit_memory(of_body, visitor));
@@ -146,7 +152,7 @@ impl<H> Base<H>
 where
     H: Deref<Target: ModelOwner + Sized>,
 {
-    /// Hands the state's words to the visitor.
+    /// Passes the state's words to the visitor.
     fn visit(&self, visitor: &mut impl WordVisitor) {
         self.state.visit(visitor);
         for signal in self.state.signals.as_ref() {
@@ -154,8 +160,8 @@ where
         }
     }
 
-    /// The state in a snapshot of `size` bytes of the scheme `own`, what comes behind it, and whether its numbers
-    /// are finite.
+    /// The state in a snapshot of `size` bytes of the scheme `own`, the remaining bytes, and whether its numbers are
+    /// finite.
     fn read_state<'b>(
         &self,
         bytes: &'b [u8],
@@ -200,7 +206,7 @@ where
     }
 }
 
-/// Bytes so far.
+/// The number of bytes so far.
 struct Count(usize);
 
 impl WordVisitor for Count {
@@ -237,7 +243,7 @@ struct Reader<'b> {
 }
 
 impl WordSource for Reader<'_> {
-    /// The next bytes as a number; 0 beyond the end, which the length check precedes.
+    /// The next bytes as a number; 0 beyond the end, which the length check excludes.
     fn take(&mut self, size: usize) -> u64 {
         let (here, rest) = self.bytes.split_at_checked(size).unwrap_or((&[], &[]));
         self.bytes = rest;
@@ -245,7 +251,7 @@ impl WordSource for Reader<'_> {
     }
 }
 
-/// CRC-32 of IEEE 802.3, reflected, bit by bit: a snapshot is short and seldom taken.
+/// CRC-32 of IEEE 802.3, reflected, bit by bit: a snapshot is short and rarely taken.
 struct Crc32(u32);
 
 impl Default for Crc32 {

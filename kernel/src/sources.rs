@@ -1,13 +1,12 @@
-//! What sources say: sines, tables that repeat, tables over a sensor that `sensors` reads.
+//! Signals of sources: sines, periodic tables, tables over a sensor that `sensors` reads.
 //!
-//! `(source, step n, part θ) => signal`. Where a source is within its period is an integer, in units of
-//! 2⁻⁶⁴ of the period: `phase + n·advance` modulo 2⁶⁴. It is exact at any step number, the same on every
-//! target, and loses nothing late in a run in single precision. A sine is a polynomial in what is left of
-//! the nearest quarter of a turn (Taylor, below 1e-17).
+//! `(source, step n, part θ) => signal`. The phase of a source in its period is an integer, in units of 2⁻⁶⁴ of the
+//! period: `phase + n·advance` modulo 2⁶⁴. It is exact at any step number, the same on every target, and does not lose
+//! precision late in a run in single precision. A sine is a polynomial in the remainder to the nearest quarter of a
+//! revolution (Taylor, below 1e-17).
 //!
-//! A knot counts as reached up to a thousandth of a step before it: a period of whole steps is not whole in
-//! floating point. At θ > 0 one that is less than 1/128 of a step before the stage belongs to the next step, see
-//! [`crate::schedule`].
+//! A knot counts as reached up to a thousandth of a step before it: a period of whole steps is not whole in floating
+//! point. At θ > 0 a knot less than 1/128 of a step before the stage belongs to the next step, see [`crate::schedule`].
 
 use crate::elements::input::Knot;
 use crate::elements::source::{Source, SourceLaw};
@@ -19,9 +18,9 @@ use crate::schedule::{KnotStep, Signal, StageTime};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct SourceStep {
-    /// Where it is at t = 0.
+    /// Its phase at t = 0.
     pub phase: u64,
-    /// By how much it advances in a step.
+    /// Its advance per step.
     pub advance: u64,
 }
 
@@ -40,8 +39,8 @@ impl SourceStep {
     }
 }
 
-/// Puts the knots of sources among a plant's steps: a knot of a repeated table by its phase in `first`,
-/// one of a table over a sensor by the sensor's value in `offset`.
+/// Converts the knots of sources to a plant's steps: a knot of a periodic table by its phase in `first`, one of a table
+/// over a sensor by the sensor's value in `offset`.
 pub(crate) fn place_knots<P: Geometry>(
     sources: &[Source<P>],
     knots: &[Knot<P::Real>],
@@ -63,16 +62,16 @@ pub(crate) fn place_knots<P: Geometry>(
     }
 }
 
-/// What is left of `turns` without whole ones, in units of 2⁻⁶⁴.
+/// The fractional part of `turns`, in units of 2⁻⁶⁴.
 fn fraction(turns: f64) -> u64 {
-    // The conversion saturates: what rounds up to a whole turn is one unit less.
+    // The conversion saturates: a value that rounds up to a whole revolution is one unit less.
     ((turns - libm::floor(turns)) * (TURN * TURN)) as u64
 }
 
 /// 2³².
 const TURN: f64 = 4_294_967_296.0;
 
-/// Brings the signals of sines and repeated tables to a stage; whether any changed.
+/// Samples the signals of sines and periodic tables at a stage; returns whether any changed.
 pub(crate) fn sample<P: Geometry>(
     sources: &[Source<P>],
     knots: &[Knot<P::Real>],
@@ -99,7 +98,7 @@ pub(crate) fn sample<P: Geometry>(
     changed
 }
 
-/// Gives its input what a source says now; whether that changed.
+/// Writes the present signal of a source to its input; returns whether it changed.
 pub(crate) fn put<P: Geometry>(
     source: &Source<P>,
     now: Option<Signal<P::Real>>,
@@ -114,7 +113,7 @@ pub(crate) fn put<P: Geometry>(
 }
 
 impl SourceStep {
-    /// Where a source is at a stage, and up to where its knots have been reached.
+    /// The phase of a source at a stage, and the phase up to which its knots count as reached.
     fn at<R: Real>(&self, at: StageTime<R>) -> (u64, u64) {
         let advance = self.advance;
         let start = self.phase.wrapping_add(advance.wrapping_mul(at.step));
@@ -130,7 +129,7 @@ impl SourceStep {
     }
 }
 
-/// The value of a repeated table of the given period \[s\].
+/// The value of a periodic table with the given period \[s\].
 fn repeated<R: Real>(
     knots: &[Knot<R>],
     steps: &[KnotStep<R>],
@@ -139,7 +138,7 @@ fn repeated<R: Real>(
 ) -> Option<Signal<R>> {
     let row = steps.partition_point(|knot| knot.first <= reached).checked_sub(1)?;
     let (knot, step) = (knots.get(row)?, steps.get(row)?);
-    // A knot that is reached a moment early has nothing of its slope yet.
+    // A knot that is reached early does not use its slope yet.
     let (early, lead) = (step.first.wrapping_sub(phase), reached.wrapping_sub(phase) as i64);
     let is_early = early != 0 && lead > 0 && early <= lead as u64;
     let since = if is_early { 0 } else { phase.wrapping_sub(step.first) };
@@ -155,7 +154,7 @@ pub(crate) fn over<R: Real>(knots: &[Knot<R>], steps: &[KnotStep<R>], reading: R
     }))
 }
 
-/// Units of 2⁻⁶⁴ turns as turns.
+/// Units of 2⁻⁶⁴ revolutions as revolutions.
 fn turns<R: Real>(phase: u64) -> R {
     R::from_u64(phase) * R::constant(Constant::new(1.0 / (TURN * TURN)))
 }
@@ -176,9 +175,9 @@ const fn series() -> [[Constant; 2]; 9] {
     series
 }
 
-/// Sine and cosine of a phase in units of 2⁻⁶⁴ turns.
+/// Sine and cosine of a phase in units of 2⁻⁶⁴ revolutions.
 fn sine<R: Real>(phase: u64) -> (R, R) {
-    // The nearest quarter, and what is left, at most an eighth of a turn.
+    // The nearest quarter, and the remainder, at most an eighth of a revolution.
     let quarter = phase.wrapping_add(1 << 61) >> 62;
     let rest = phase.wrapping_sub(quarter << 62) as i64;
     let unit = R::constant(Constant::new(2.0 * core::f64::consts::PI / (TURN * TURN)));
@@ -224,7 +223,7 @@ mod tests {
         assert_eq!(quarters, [[0.0, 1.0], [1.0, 0.0], [0.0, -1.0], [-1.0, 0.0]]);
     }
 
-    /// Late in a run nothing is lost, in single precision either: the phase is an integer.
+    /// No precision is lost late in a run, also in single precision: the phase is an integer.
     #[test]
     fn a_sine_keeps_its_phase() {
         let source = Source::<F32>::sine(InputIndex(0), [2.0, 50.0, 0.25, 1.0]);
@@ -239,7 +238,7 @@ mod tests {
         }
     }
 
-    /// A table of one period, its last knot its end.
+    /// A table of one period, whose last knot is its end.
     fn value(table: &[[f64; 2]], linear: bool, n: u64, part: f64, step: f64) -> [f64; 2] {
         let knot = |i| Knot::<f64>::of_table(table, i, linear).unwrap();
         let knots: [Knot<f64>; 2] = core::array::from_fn(knot);

@@ -1,9 +1,9 @@
-//! The space that bodies move in: what vectors, moments and turns are in it.
+//! The space in which bodies move: its vectors, moments and rotations.
 //!
-//! A vector is a difference of positions, a velocity or a force; a moment is an angular velocity, a
-//! torque or a principal inertia. In space both are [`Vec3`]; a number stands for the space over it,
-//! so that what holds vectors and moments of space is written with its number: `Body<f64>`. What has a
-//! fixed layout elsewhere has three components here: a plane is z = 0, its moments lie along z.
+//! A vector is a difference of positions, a velocity or a force; a moment is an angular velocity, a torque or a
+//! principal inertia. In space both are [`Vec3`]; a number type also represents the space over it, so that types with
+//! vectors and moments of space are written with its number: `Body<f64>`. Types with a fixed layout elsewhere have
+//! three components here: a plane is z = 0, its moments are along z.
 
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
@@ -13,7 +13,7 @@ use crate::real::{Lanewise, Real};
 use crate::vector::{Quaternion, Vec3};
 use crate::words::Words;
 
-/// What vectors and moments have in common.
+/// The common operations of vectors and moments.
 pub trait Linear:
     Copy
     + Debug
@@ -37,15 +37,15 @@ pub trait Linear:
     /// The number of its components.
     const DIMENSION: usize;
 
-    /// Its components of a vector of space, each rounded once from double precision.
+    /// Its components from a spatial vector, each rounded once from double precision.
     fn from_f64(v: [f64; 3]) -> Self;
-    /// Whether its components are all that a vector of space has: the others are zero.
+    /// Whether the remaining components of a spatial vector are zero.
     fn holds(v: [f64; 3]) -> bool;
-    /// As a vector of space in double precision, exact.
+    /// As a spatial vector in double precision, exact.
     fn to_f64(self) -> [f64; 3];
-    /// Its components of a vector of space.
+    /// Its components from a spatial vector.
     fn of_space(v: Vec3<Self::Real>) -> Self;
-    /// As a vector of space.
+    /// As a spatial vector.
     fn in_space(self) -> Vec3<Self::Real>;
     /// The scalar product.
     fn dot(self, other: Self) -> Self::Real;
@@ -54,7 +54,7 @@ pub trait Linear:
     /// Whether every component is finite.
     fn is_finite(self) -> bool;
 
-    /// Itself, or where `truth` holds what changes nothing when it is added: zeros of negative sign.
+    /// Itself, or, where `truth` is set, zeros of negative sign, which change nothing when added.
     #[inline(always)]
     fn unless(self, truth: <Self::Real as Real>::Truth) -> Self {
         Self::select(truth, -Self::ZERO, self)
@@ -63,50 +63,49 @@ pub trait Linear:
 
 /// A difference of positions \[m\], a velocity \[m/s\] or a force \[N\].
 pub trait Vector: Linear {
-    /// What an arm makes of a force.
+    /// The moment of a force at a lever arm.
     type Moment;
 
-    /// The moment `self × force`, self an arm.
+    /// The moment `self × force`, self a lever arm.
     fn cross(self, force: Self) -> Self::Moment;
-    /// Unit vectors normal to this unit vector and to each other, [`Linear::DIMENSION`] less one, then
-    /// zeros.
+    /// Unit vectors normal to this unit vector and to each other, [`Linear::DIMENSION`] minus one, then zeros.
     fn normals(self) -> [Self; 2];
-    /// The vector normal to this one and another, of their lengths and the sine between them; zero
+    /// The vector normal to this one and another, with the product of their lengths and the sine between them; zero
     /// where there is no such direction.
     fn across(self, other: Self) -> Self;
 }
 
 /// An angular velocity \[rad/s\], a torque \[N·m\] or the principal inertia \[kg·m²\].
 pub trait Moment: Linear {
-    /// What turns.
+    /// Displacements and forces of the same space.
     type Vector;
 
     /// The velocity `self × arm`, self an angular velocity.
     fn cross(self, arm: Self::Vector) -> Self::Vector;
-    /// `self × other`, zero where all turns commute.
+    /// `self × other`, zero where all rotations commute.
     fn commutator(self, other: Self) -> Self;
     /// The component-wise product.
     fn scale(self, other: Self) -> Self;
-    /// `number` over each component.
+    /// `number` divided by each component.
     fn under(self, number: Self::Real) -> Self;
     /// The square root of each component.
     fn root(self) -> Self;
-    /// So many times each column as its component says: a matrix of columns times itself.
+    /// The sum of the columns, each times its component: a matrix of columns times itself.
     fn of_columns(self, columns: [Self; 3]) -> Self;
 }
 
-/// How one orientation stands to another, as half angles: what torsion springs measure.
+/// The relative orientation of two bodies, as half angles, for torsion springs.
 pub trait Turn: Copy + Debug + Default + PartialEq + Send + Sync + Words + 'static {
     /// The number of its components.
     type Real: Real;
     /// An axis.
     type Moment;
 
-    /// Of a unit quaternion, scalar first, each component rounded once.
+    /// From a unit quaternion, scalar first, each component rounded once.
     fn from_f64(turn: [f64; 4]) -> Self;
     /// The unit quaternion in double precision, scalar first, exact.
     fn to_f64(self) -> [f64; 4];
-    /// The opposite turn.
+    /// The inverse rotation.
     fn conjugate(self) -> Self;
     /// `other` first in its axes, then self.
     fn product(self, other: Self) -> Self;
@@ -117,7 +116,7 @@ pub trait Turn: Copy + Debug + Default + PartialEq + Send + Sync + Words + 'stat
     fn gradient(self, axis: Self::Moment, sine: Self::Real, norm: Self::Real) -> Self::Moment;
 }
 
-/// The block of a space's freedoms.
+/// The block of a space's degrees of freedom.
 pub type BlockOf<S> = <<S as Space>::Row as Freedoms>::Block;
 
 /// A space that bodies move in, over a number.
@@ -128,22 +127,22 @@ pub trait Space: Copy + Debug + Default + PartialEq + 'static {
     type Vector: Vector<Real = Self::Real, Moment = Self::Moment>;
     /// Angular velocities, torques, inertias.
     type Moment: Moment<Real = Self::Real, Vector = Self::Vector>;
-    /// Turns of one body in another.
+    /// Rotations of one body relative to another.
     type Turn: Turn<Real = Self::Real, Moment = Self::Moment>;
-    /// One number per freedom of a body.
+    /// One number per degree of freedom of a body.
     type Row: Freedoms<Real = Self::Real>;
-    /// What a wrench ends with: nothing, or what makes its length a power of two, so that a body's is found
-    /// without a multiplication.
+    /// The padding of a wrench: none, or enough to make its length a power of two, so that indexing needs no
+    /// multiplication.
     type Filler: Copy + Debug + Default + PartialEq + Send + 'static;
 
     /// The name users give: `spatial`, `planar`.
     const NAME: &'static str;
-    /// Whether every turn is about z.
+    /// Whether every rotation is about z.
     const PLANAR: bool;
 
     /// The row of a vector and a moment.
     fn row(linear: Self::Vector, angular: Self::Moment) -> Self::Row;
-    /// Vector and moment of a row.
+    /// The vector and the moment of a row.
     fn parts(row: Self::Row) -> (Self::Vector, Self::Moment);
     /// Writes a body's block: its mass, its principal inertia about axes.
     fn set_mass(
@@ -152,14 +151,14 @@ pub trait Space: Copy + Debug + Default + PartialEq + 'static {
         axes: [Self::Moment; 3],
         block: &mut BlockOf<Self>,
     );
-    /// Adds `Σ w·j·jᵀ`, `j = (u, r×u)` over all axes u, to the lower triangle of a block: a point at the end of
-    /// the arm r, held alike in all directions.
+    /// Adds `Σ w·j·jᵀ`, `j = (u, r×u)` over all axes u, to the lower triangle of a block: an isotropic point stiffness
+    /// at the lever arm r.
     fn add_point(weight: Self::Real, arm: Self::Vector, block: &mut BlockOf<Self>);
-    /// Takes `Σ w·(u, r×u)·(u, s×u)ᵀ` from a block, r and s the arms of its rows' and columns' body.
+    /// Subtracts `Σ w·(u, r×u)·(u, s×u)ᵀ` from a block, r and s the lever arms of its rows' and columns' body.
     fn take_points(weight: Self::Real, arms: [Self::Vector; 2], block: &mut BlockOf<Self>);
-    /// Adds `w·(I − e·eᵀ)` to the turns of a symmetric block: an axis e that is held.
+    /// Adds `w·(I − e·eᵀ)` to the rotations of a symmetric block: a stiffness that aligns an axis e.
     fn add_across(weight: Self::Real, axis: Self::Vector, block: &mut BlockOf<Self>);
-    /// Takes the same from a block of two bodies.
+    /// Subtracts the same from a block of two bodies.
     fn take_across(weight: Self::Real, axis: Self::Vector, block: &mut BlockOf<Self>);
 }
 
@@ -235,7 +234,7 @@ impl<R: Real> Space for R {
         (x[1], x[2]) = (x[1] + m.z, x[2] - m.y);
         (y[0], y[2]) = (y[0] - m.z, y[2] + m.x);
         (z[0], z[1]) = (z[0] + m.y, z[1] - m.x);
-        // (r·s)·I − s·rᵀ: what r × u and s × u have in common.
+        // (r·s)·I − s·rᵀ: the common part of r × u and s × u.
         let (xx, yy, zz) = (m.x * s.x, m.y * s.y, m.z * s.z);
         x[3] = x[3] - (yy + zz);
         (x[4], x[5]) = (x[4] + n.x * r.y, x[5] + n.x * r.z);

@@ -1,8 +1,8 @@
 //! The correctly rounded square root: the FPU's where it has one, pure Rust elsewhere.
 //!
-//! IEEE 754 rounds the root correctly, so the bits are the same either way. `core` offers no
-//! root; libm's is the host's instruction on x86-64 and about a hundred instructions on a
-//! Cortex-M, where the single-precision FPU does it in one. WebAssembly has an instruction for both, which only `std` offers.
+//! IEEE 754 rounds the root correctly, so the bits are the same either way. `core` has no root; libm's is the host's
+//! instruction on x86-64 and about a hundred instructions on a Cortex-M, where the single-precision FPU needs one.
+//! WebAssembly has an instruction for both, which only `std` exposes.
 
 /// √x in double precision.
 #[inline(always)]
@@ -47,7 +47,7 @@ pub fn sqrt_f32(x: f32) -> f32 {
     f32::from_bits(root)
 }
 
-/// The roots of several in single precision: two registers go over in one instruction.
+/// Several roots in single precision: two registers are transferred by one instruction.
 #[inline(always)]
 pub fn roots_f32<const N: usize>(mut values: [f32; N]) -> [f32; N] {
     let (pairs, rest) = values.as_chunks_mut();
@@ -71,8 +71,8 @@ fn roots_of_pair(pair: [f32; 2]) -> [f32; 2] {
 #[inline(always)]
 fn roots_of_pair([a, b]: [f32; 2]) -> [f32; 2] {
     let (root_a, root_b): (u32, u32);
-    // SAFETY: as above. It touches no memory, but may not say so: loads that follow then stay behind it,
-    // where the registers would not hold what the next springs take.
+    // SAFETY: as above. It touches no memory, but is not declared so, which keeps later loads behind it: the registers
+    // could not hold the data of the next springs.
     unsafe {
         core::arch::asm!(
             "vmov s0, s1, {a}, {b}",
@@ -89,8 +89,8 @@ fn roots_of_pair([a, b]: [f32; 2]) -> [f32; 2] {
     [f32::from_bits(root_a), f32::from_bits(root_b)]
 }
 
-/// [`roots_f32`] for who has so little else at hand that the registers hold it which a call leaves alone:
-/// a call takes numbers and gives roots where arithmetic has them, without a way through core registers.
+/// [`roots_f32`] where so few other values are live that the call-preserved registers suffice: a call passes numbers in
+/// FPU registers, without core registers.
 #[cfg(not(all(target_arch = "arm", target_os = "none", target_abi = "eabihf")))]
 #[inline(always)]
 pub fn roots_apart_f32<const N: usize>(values: [f32; N]) -> [f32; N] {
@@ -100,14 +100,14 @@ pub fn roots_apart_f32<const N: usize>(values: [f32; N]) -> [f32; N] {
 #[cfg(all(target_arch = "arm", target_os = "none", target_abi = "eabihf"))]
 pub use call::roots_apart_f32;
 
-/// Roots by a call.
+/// Roots by a function call.
 #[cfg(all(target_arch = "arm", target_os = "none", target_abi = "eabihf"))]
 mod call {
     #[repr(C)]
     struct Pair(f32, f32);
 
-    // SAFETY: by the hard-float ABI two numbers are handed over and given back in `s0` and `s1`, which it
-    // writes and nothing else. Only functions know the target's FPU by themselves, hence the first line.
+    // SAFETY: by the hard-float ABI two numbers are passed and returned in `s0` and `s1`, the only registers that it
+    // writes. The target's FPU is enabled in functions only, hence the first line.
     #[allow(unsafe_code)]
     #[unsafe(naked)]
     extern "C" fn roots_of_pair(_: f32, _: f32) -> Pair {

@@ -1,7 +1,7 @@
 //! The state: plain data, one visitor over its words, one hash.
 //!
-//! Per body position, orientation, velocity (world) and angular velocity (body axes), then the
-//! torsion springs' turn counts, then the memories of laws, then the step counter. Nothing here is a cache.
+//! Per body position, orientation, velocity (world) and angular velocity (body axes), then the torsion springs'
+//! revolution counts, then the memories of laws, then the step counter. The state contains no cache.
 
 use crate::body::BodyState;
 use crate::laws::Laws as _;
@@ -14,13 +14,13 @@ use crate::words::{Fnv1a, Word, WordSource, WordVisitor, Words};
 pub struct State<M: ModelOwner> {
     /// Per body, in the model's order.
     pub bodies: M::PerBody<BodyState<M::Precision>>,
-    /// Half windings per torsion spring, see [`crate::elements::torsion_spring`].
+    /// Half revolutions per torsion spring, see [`crate::elements::torsion_spring`].
     pub turns: M::PerTorsion,
     /// The memories of its laws.
     pub laws: LawStates<M>,
-    /// Steps done: time is `step·h`.
+    /// Completed steps: time is `step·h`.
     pub step: u64,
-    /// The inputs' signals; no words of the hash.
+    /// The inputs' signals; not part of the hash.
     pub signals: M::PerInput<Signal<RealOf<M>>>,
 }
 

@@ -1,4 +1,4 @@
-//! What a step reports. A failure latches: no later step runs and nothing resets itself.
+//! The result of a step. A failure latches: no later step runs until the failure is cleared explicitly.
 
 use crate::index::{BodyIndex, LawIndex, TorsionIndex};
 
@@ -7,10 +7,10 @@ use crate::index::{BodyIndex, LawIndex, TorsionIndex};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Status {
-    /// All is well.
+    /// No failure.
     #[default]
     Running,
-    /// The plant failed and stays where it failed.
+    /// The plant failed and keeps the state of the failure.
     Failed(Failure),
 }
 
@@ -18,13 +18,13 @@ pub enum Status {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Failure {
-    /// What went wrong, and with which body or element.
+    /// The cause, with its body or element.
     pub cause: Cause,
     /// The step that failed, counted from 1.
     pub step: u64,
 }
 
-/// What went wrong, and with which body or element.
+/// The cause of a failure, with its body or element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Cause {
@@ -33,61 +33,60 @@ pub enum Cause {
         /// The first such body.
         body: BodyIndex,
     },
-    /// The twist of this torsion spring is undefined: its bodies turned by half a turn about an
-    /// axis normal to the spring's.
+    /// The torsion angle of this torsion spring is undefined: its bodies rotated by half a revolution about an axis
+    /// normal to the spring's.
     UndefinedTwist {
         /// The first such spring.
         spring: TorsionIndex,
     },
-    /// What this law does is undefined at the pose.
+    /// This law is undefined at the pose.
     Undefined {
         /// The first such row.
         law: LawIndex,
     },
-    /// This body turns by more than [`MOST_TURN`] in a step.
+    /// This body rotates by more than [`MOST_TURN`] in a step.
     Spin {
         /// The first such body.
         body: BodyIndex,
     },
-    /// This body turns farther in a step than the scheme bears:
-    /// [`Scheme::MOST_TURN`](crate::Scheme::MOST_TURN), less than [`MOST_TURN`].
+    /// This body rotates farther in a step than the scheme allows: [`Scheme::MOST_TURN`](crate::Scheme::MOST_TURN),
+    /// less than [`MOST_TURN`].
     Turn {
         /// The first such body.
         body: BodyIndex,
     },
-    /// This body is farther from the origin, or moved farther in a step, than fixed-point numbers hold.
+    /// This body's position, or its motion in a step, is out of the fixed-point range.
     Extent {
         /// The first such body.
         body: BodyIndex,
     },
-    /// The turn count of this torsion spring is at its end: 2³¹ turns.
+    /// The revolution count of this torsion spring has reached its maximum: 2³¹ revolutions.
     Turns {
         /// The first such spring.
         spring: TorsionIndex,
     },
-    /// The step counter is at its end: 2⁶⁴ − 1 steps. The state is left as it was.
+    /// The step counter has reached its maximum: 2⁶⁴ − 1 steps. The state is unchanged.
     Steps,
-    /// The matrix of an implicit scheme is not positive definite at this body: a number is beyond what
-    /// the precision holds.
+    /// The matrix of an implicit scheme is not positive definite at this body: a number is out of the precision's
+    /// range.
     Pivot {
         /// The first such body.
         body: BodyIndex,
     },
-    /// What is mounted to this body can vibrate faster than the step bears; see
-    /// [`crate::watch::Watch`].
+    /// The natural frequency of this body's mounts is too high for the step; see [`crate::watch::Watch`].
     Frequency {
         /// The body.
         body: BodyIndex,
     },
-    /// The energy is beyond what was allowed; see [`crate::watch::Watch`].
+    /// The energy exceeds its limit; see [`crate::watch::Watch`].
     Energy {
         /// The body with the most kinetic energy.
         body: BodyIndex,
     },
 }
 
-/// \[rad\] what a body may turn in a step: the polynomials of a turn lose digits from 0.3 on, and
-/// forces that turn with the body are sampled too rarely long before.
+/// \[rad\] the largest rotation of a body in a step: the rotation polynomials lose digits from 0.3 on, and forces that
+/// rotate with the body are undersampled well before that.
 pub const MOST_TURN: f64 = 1.0;
 
 impl Status {
@@ -100,7 +99,7 @@ impl Status {
     /// The status as a result.
     ///
     /// # Errors
-    /// The failure, where there is one.
+    /// The failure, if any.
     pub const fn ok(self) -> Result<(), Failure> {
         match self {
             Status::Running => Ok(()),
@@ -112,32 +111,40 @@ impl Status {
 impl core::fmt::Display for Failure {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self.cause {
-            Cause::NonFinite { body } => write!(f, "body {} is not finite", body.0)?,
+            Cause::NonFinite { body } => write!(f, "the state of body {} is not finite", body.0)?,
             Cause::UndefinedTwist { spring } => {
-                write!(f, "the twist of torsion spring {} is undefined", spring.0)?;
+                write!(f, "the torsion angle of torsion spring {} is undefined", spring.0)?;
             }
-            Cause::Undefined { law } => write!(f, "law {} is undefined here", law.0)?,
+            Cause::Undefined { law } => write!(f, "law {} is undefined at this pose", law.0)?,
             Cause::Spin { body } => {
-                write!(f, "body {} turns by more than {MOST_TURN} rad in a step", body.0)?;
+                write!(f, "body {} rotates by more than {MOST_TURN} rad in a step", body.0)?;
             }
             Cause::Turn { body } => {
-                write!(f, "body {} turns farther in a step than the scheme bears", body.0)?;
+                write!(f, "body {} rotates farther in a step than the scheme allows", body.0)?;
             }
             Cause::Extent { body } => {
-                write!(f, "body {} is farther away than fixed-point numbers hold", body.0)?;
+                write!(f, "the position of body {} exceeds the fixed-point range", body.0)?;
             }
             Cause::Turns { spring } => {
-                write!(f, "the turn count of torsion spring {} is at its end", spring.0)?;
+                write!(
+                    f,
+                    "the revolution count of torsion spring {} has reached its maximum",
+                    spring.0
+                )?;
             }
-            Cause::Steps => write!(f, "the step counter is at its end")?,
+            Cause::Steps => write!(f, "the step counter has reached its maximum")?,
             Cause::Pivot { body } => {
-                write!(f, "the matrix of the step has no factor at body {}", body.0)?;
+                write!(f, "the iteration matrix is not positive definite (body {})", body.0)?;
             }
             Cause::Frequency { body } => {
-                write!(f, "the mounts of body {} can vibrate too fast for the step", body.0)?;
+                write!(
+                    f,
+                    "the natural frequency at the joints of body {} is too high for the step",
+                    body.0
+                )?;
             }
             Cause::Energy { body } => {
-                write!(f, "the energy is beyond its limit, most of it in body {},", body.0)?;
+                write!(f, "the energy exceeds its limit, with most of it in body {},", body.0)?;
             }
         }
         write!(f, " after step {}", self.step)

@@ -1,7 +1,7 @@
 //! Vectors, rotation matrices and quaternions over a [`Real`].
 //!
-//! Every sum is written in ascending index order: `(x + y) + z`. Quaternions are scalar first,
-//! unit, and turn body axes into world axes.
+//! Every sum is written in ascending index order: `(x + y) + z`. Quaternions are scalar first, of unit length, and
+//! rotate body axes into world axes.
 
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -174,7 +174,7 @@ pub struct Rotation<R> {
 }
 
 impl<R: Real> Rotation<R> {
-    /// The rotation that changes nothing.
+    /// The identity rotation.
     pub const IDENTITY: Self = Self {
         x: Vec3::new(R::ONE, R::ZERO, R::ZERO),
         y: Vec3::new(R::ZERO, R::ONE, R::ZERO),
@@ -198,7 +198,7 @@ impl<R: Real> Rotation<R> {
     }
 }
 
-/// A quaternion, scalar first; unit wherever it stands for an orientation (body → world).
+/// A quaternion, scalar first; of unit length wherever it represents an orientation (body → world).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Quaternion<R> {
@@ -222,7 +222,7 @@ impl<R: Real> Default for Quaternion<R> {
 }
 
 impl<R: Real> Quaternion<R> {
-    /// The rotation that changes nothing.
+    /// The identity rotation.
     pub const IDENTITY: Self = Self::new(R::ONE, R::ZERO, R::ZERO, R::ZERO);
 
     /// Each component rounded once from double precision, scalar first.
@@ -251,9 +251,8 @@ impl<R: Real> Quaternion<R> {
         Self { w: self.w * other.w - a.dot(b), v: (b * self.w + a * other.w) + a.cross(b) }
     }
 
-    /// [`Self::product`] with a turn about one of the first factor's axes, `cos` and `sin` of half
-    /// the angle: without the products of zeros, but for the one that decides a zero's sign where
-    /// a body turns in a plane.
+    /// [`Self::product`] with a rotation about one of the first factor's axes, `cos` and `sin` of half the angle:
+    /// without the products of zeros, except the one that determines a zero's sign where a body rotates in a plane.
     #[inline(always)]
     pub(crate) fn turned_about<const AXIS: usize>(self, cos: R, sin: R) -> Self {
         let (w, Vec3 { x, y, z }) = (self.w, self.v);

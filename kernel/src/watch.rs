@@ -1,10 +1,10 @@
-//! Guards that cost more than a step can bear: a look now and then.
+//! Guards that are too expensive for every step: periodic checks.
 //!
-//! `(watch, plant) => status`. A step itself refuses what is not finite, what spins too fast and
-//! counters at their ends. [`Watch`] sees a run that leaves the range its step was chosen for:
-//! mounts that vibrate faster than at the start, for an element is compressed or under tension far
-//! beyond what it was, and energy beyond a limit. Each look takes the mounts of one body in turn; only
-//! placing the bodies, and the energy where it is asked for, go through the whole model.
+//! `(watch, plant) => status`. A step itself refuses values that are not finite, too fast rotation and counter
+//! overflow. [`Watch`] detects a run that leaves the range its step was chosen for: mounts whose natural frequency
+//! exceeds that at the start, because an element is compressed or under tension far beyond its initial state, and
+//! energy beyond a limit. Each check covers the mounts of one body in turn; only computing the frames, and the energy
+//! if requested, visit the whole model.
 
 use core::ops::Deref;
 
@@ -20,25 +20,25 @@ use crate::schemes::Scheme;
 use crate::space::{Linear as _, Moment as _};
 use crate::status::{Cause, Status};
 
-/// How far the bound of a frequency may grow beyond what the scheme bears or, where it was beyond
-/// at the start, beyond that.
+/// The factor by which the frequency bound may exceed the scheme's limit or, where it was above that at the start, its
+/// initial value.
 const GROWTH: f64 = 1.2;
 
-/// Looks at a plant from time to time.
+/// Checks a plant periodically.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Watch<R> {
-    /// The body that the next look takes.
+    /// The body of the next check.
     next: usize,
-    /// \[rad²/s²\] the square of the frequency that is refused.
+    /// \[rad²/s²\] the square of the limit frequency.
     square: R,
-    /// \[J\] the energy that is refused.
+    /// \[J\] the limit of the energy.
     energy: Option<R>,
 }
 
 impl<R: Real> Watch<R> {
-    /// A watch over a plant as it is now: it refuses frequencies by [`crate::frequency::bound`] whose
-    /// ω·h is beyond 1.2 times the scheme's limit, or what the bound is now, by 1.2.
+    /// A watch over a plant in its present state: it refuses frequencies by [`crate::frequency::bound`] whose ω·h
+    /// exceeds 1.2 times the larger of the scheme's limit and the present bound.
     pub fn new<H, S>(plant: &Plant<H, S>) -> Self
     where
         H: Deref<Target: ModelOwner<Precision: Geometry<Real = R>> + Sized>,
@@ -56,8 +56,8 @@ impl<R: Real> Watch<R> {
         Self { energy: Some(most), ..self }
     }
 
-    /// Looks at the next body's mounts and, where it was asked to, at the energy. A plant that is
-    /// refused has failed: it steps no more until it is cleared, reset or restored.
+    /// Checks the next body's mounts and, if requested, the energy. A plant that fails the check is not stepped until
+    /// it is cleared, reset or restored.
     pub fn look<H, S>(&mut self, plant: &mut Plant<H, S>) -> Status
     where
         H: Deref<Target: ModelOwner<Precision: Geometry<Real = R>> + Sized>,
@@ -72,7 +72,7 @@ impl<R: Real> Watch<R> {
         });
         let count = plant.state().bodies.as_ref().len();
         self.next = if row + 1 < count { row + 1 } else { 0 };
-        // What is not a number is not calm either.
+        // NaN fails the check, too.
         let calm = square <= self.square;
         if !calm {
             return plant.fail(Cause::Frequency { body: BodyIndex(row as u16) });

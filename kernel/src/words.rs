@@ -1,4 +1,4 @@
-//! The state's words: one visitor lists them in order, everything that reads bits uses it.
+//! The state's words: one visitor lists them in order, for all code that reads bits.
 //!
 //! `state => words => hash | snapshot | comparison`. The hash is FNV-1a 64 (Fowler, Noll, Vo;
 //! offset 0xcbf29ce484222325, prime 0x100000001b3) over the words' little-endian bytes.
@@ -11,15 +11,15 @@ pub enum Word {
     F32(f32),
     /// A double-precision number.
     F64(f64),
-    /// A turn count.
+    /// A revolution count.
     I32(i32),
     /// The step counter.
     U64(u64),
 }
 
 impl Word {
-    /// The word's bits, zero-extended to 64. Every NaN gives those of one: sign and payload of a
-    /// NaN differ between machines, and between builds for one machine.
+    /// The word's bits, zero-extended to 64. Every NaN has the same bits: sign and payload of a NaN differ between
+    /// machines, and between builds for one machine.
     #[must_use]
     pub fn bits(self) -> u64 {
         match self {
@@ -40,14 +40,14 @@ impl Word {
     }
 }
 
-/// Bits as they are, those of a NaN as the quiet one without a payload. By integers: the target
-/// has no double-precision comparison.
+/// The bits unchanged, those of a NaN replaced by the quiet one without a payload. In integers: the target has no
+/// double-precision comparison.
 const fn canonical_f64(bits: u64) -> u64 {
     const INFINITY: u64 = 0x7ff << 52;
     if bits & (u64::MAX >> 1) > INFINITY { INFINITY | 1 << 51 } else { bits }
 }
 
-/// Likewise.
+/// As [`canonical_f64`].
 const fn canonical_f32(bits: u32) -> u32 {
     const INFINITY: u32 = 0xff << 23;
     if bits & (u32::MAX >> 1) > INFINITY { INFINITY | 1 << 22 } else { bits }
@@ -55,11 +55,11 @@ const fn canonical_f32(bits: u32) -> u32 {
 
 /// Receives words in their fixed order.
 pub trait WordVisitor {
-    /// Takes the next word.
+    /// Accepts the next word.
     fn word(&mut self, word: Word);
 }
 
-/// Gives words in their fixed order.
+/// Provides words in their fixed order.
 pub trait WordSource {
     /// The bits of the next word of `size` bytes, zero-extended to 64.
     fn take(&mut self, size: usize) -> u64;
@@ -67,9 +67,9 @@ pub trait WordSource {
 
 /// A value made of words in a fixed order.
 pub trait Words {
-    /// Hands every word to the visitor, in the order that is part of the interface.
+    /// Passes every word to the visitor, in the order that is part of the interface.
     fn visit(&self, visitor: &mut impl WordVisitor);
-    /// Takes every word from the source, in the same order.
+    /// Reads every word from the source, in the same order.
     fn fill(&mut self, source: &mut impl WordSource);
 }
 
@@ -79,13 +79,13 @@ pub trait Words {
 pub struct Fnv1a(u64);
 
 impl Fnv1a {
-    /// The hash of nothing.
+    /// The hash of the empty input.
     #[must_use]
     pub const fn new() -> Self {
         Self(0xcbf2_9ce4_8422_2325)
     }
 
-    /// The hash of what was visited so far.
+    /// The hash of the words visited so far.
     #[must_use]
     pub const fn finish(self) -> u64 {
         self.0
@@ -121,22 +121,22 @@ impl WordVisitor for Finite {
     }
 }
 
-/// What tells whether every number visited so far is finite.
+/// Accumulators that detect numbers that are not finite.
 pub(crate) struct Sums {
-    /// The sum of products of two single-precision numbers each, of which one that is not finite leaves
-    /// no other: two numbers by one operation.
+    /// The sum of products of two single-precision numbers each; a number that is not finite makes the sum not finite:
+    /// two numbers per operation.
     products: f32,
-    /// The number that waits for a second one.
+    /// The number that waits for its second factor.
     waiting: Option<f32>,
-    /// Its highest bit is set by an exponent of ones, the mark of what is not finite, in the upper
-    /// halves of double-precision numbers: in integers, for the target adds those in software.
+    /// The highest bit is set by an exponent of ones, the mark of a number that is not finite, in the upper halves of
+    /// double-precision numbers: in integers, because the target adds double precision in software.
     double: u32,
 }
 
 impl Sums {
     pub(crate) const ZERO: Self = Self { products: 0.0, waiting: None, double: 0 };
 
-    /// Ends a body: the next begins a product anew, so that the compiler knows who waits.
+    /// Ends a body: the next begins a new product, so that the compiler knows whether a number waits.
     #[inline(always)]
     pub(crate) fn end(&mut self) {
         if let Some(x) = self.waiting.take() {
@@ -150,9 +150,9 @@ impl Sums {
         self.double >> 31 == 0
     }
 
-    /// 0 where every single-precision number until an end was finite for sure, else no number: products
-    /// and sums of finite numbers may overflow, too.
-    // As for a vector of space.
+    /// 0 where every single-precision number until an end was certainly finite, else NaN: products and sums of finite
+    /// numbers may overflow, too.
+    // As for a spatial vector.
     #[allow(clippy::eq_op)]
     #[inline(always)]
     pub(crate) fn nought(&self) -> f32 {
@@ -177,7 +177,7 @@ impl WordVisitor for Sums {
     }
 }
 
-/// Whether every number of some words is finite.
+/// Whether every number of the given words is finite.
 pub(crate) fn is_finite(words: &impl Words) -> bool {
     let mut finite = Finite(true);
     words.visit(&mut finite);

@@ -1,6 +1,6 @@
-//! What Python hands over, and what it gets back as arrays.
+//! Arguments from Python, and results as arrays.
 //!
-//! `names => places; array or count => holds`.
+//! `names => indices; array or count => held inputs`.
 
 use dbd_plant::instance::{Instance, InstanceError};
 use dbd_scene::TIME_COLUMN;
@@ -15,7 +15,7 @@ use pyo3::prelude::*;
 use crate::error::{Refusal, raise};
 use crate::rollout::Course;
 
-/// A time \[s\]: a number, or a text as a scene has it, `250us`.
+/// A time \[s\]: a number, or a text as in a scene, `250us`.
 #[derive(Clone, Copy)]
 pub(crate) struct Seconds(pub(crate) f64);
 
@@ -30,11 +30,11 @@ impl<'py> FromPyObject<'_, 'py> for Seconds {
     }
 }
 
-/// What inputs are held at in a run.
+/// The held inputs of a run.
 pub(crate) enum Held<'py> {
-    /// So many samples with the inputs as they are.
+    /// The given number of samples with the present inputs.
     Count(usize),
-    /// An array of samples × inputs; of plants × samples × inputs for several.
+    /// An array of samples × inputs, or plants × samples × inputs for several plants.
     Array(PyArrayLikeDyn<'py, f64, AllowTypeChange>),
 }
 
@@ -48,13 +48,13 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Held<'py> {
         match given.extract() {
             Ok(array) => Ok(Self::Array(array)),
             Err(_) => Err(PyTypeError::new_err(
-                "u is an array of numbers, samples × inputs, or how many samples",
+                "u must be an array of numbers, samples × inputs, or the number of samples",
             )),
         }
     }
 }
 
-/// The places of outputs by name; the time's is `None`.
+/// The indices of outputs by name; `None` for the time.
 pub(crate) fn columns(
     instance: &Instance,
     names: Option<Vec<String>>,
@@ -69,7 +69,7 @@ pub(crate) fn columns(
     names.iter().map(place).collect()
 }
 
-/// The places of inputs by name.
+/// The indices of inputs by name.
 pub(crate) fn inputs(
     instance: &Instance,
     names: Option<Vec<String>>,
@@ -80,7 +80,7 @@ pub(crate) fn inputs(
     }
 }
 
-/// A run of one plant, or of several that are like `instance`, and what their inputs are held at.
+/// A run of one plant, or of several like `instance`, with their held inputs.
 pub(crate) fn course(
     py: Python<'_>,
     instance: &Instance,
@@ -112,7 +112,7 @@ pub(crate) fn course(
             let of = of.map_or_else(String::new, |plants| format!("{plants} × "));
             let (width, shape) = (inputs.len(), array.shape());
             return Err(PyValueError::new_err(format!(
-                "u is an array of {shape:?}; {of}samples × {width} is its shape here"
+                "u has shape {shape:?}, expected {of}samples × {width}"
             )));
         }
     };
@@ -121,13 +121,15 @@ pub(crate) fn course(
     Ok((Course { inputs, columns, samples, every }, held))
 }
 
-/// Refuses what no memory holds, before it is tried.
+/// Rejects results that exceed the memory before the allocation.
 fn rows(samples: usize, plants: usize, columns: usize) -> PyResult<()> {
     let all = samples.checked_mul(plants).and_then(|rows| rows.checked_mul(columns.max(1)));
     if all.is_some_and(|numbers| numbers < 1 << 40) {
         return Ok(());
     }
-    Err(PyValueError::new_err(format!("{samples} samples of {columns} outputs are too many")))
+    Err(PyValueError::new_err(format!(
+        "{samples} samples of {columns} outputs exceed the available memory"
+    )))
 }
 
 /// Rows one after another as an array of rows × columns.

@@ -1,13 +1,13 @@
-//! What went wrong, as the exceptions of `dbd`.
+//! Errors as exceptions of `dbd`.
 //!
-//! `InstanceError => exception with its sentence`. The classes are written in Python, in `dbd/_errors.py`, for
-//! each has two bases: `dbd.Error` and the built-in one that it is a case of.
+//! `InstanceError => exception with its sentence`. The classes are written in Python, in `dbd/_errors.py`, because
+//! each has two bases: `dbd.Error` and a built-in exception.
 
 use dbd_plant::instance::InstanceError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// An exception of a class of `dbd/_errors.py`, to be raised once the interpreter is held.
+/// An exception of a class of `dbd/_errors.py`, to be raised once the interpreter is attached.
 pub(crate) struct Refusal {
     class: &'static str,
     sentence: String,
@@ -21,15 +21,15 @@ impl Refusal {
         Self { class, sentence: sentence.into(), failed: None }
     }
 
-    /// The plant is at work in another thread.
+    /// The plant is in use by another thread.
     pub(crate) fn busy() -> Self {
         Self::new(
             "BusyError",
-            "the plant is at work in another thread; each thread needs its own, see copy()",
+            "the plant is in use by another thread; use copy() to give each thread its own",
         )
     }
 
-    /// Python's exception; where its class cannot be had, why.
+    /// Python's exception, or the error of importing its class.
     pub(crate) fn raised(self, py: Python<'_>) -> PyErr {
         self.exception(py).unwrap_or_else(|error| error)
     }
@@ -65,7 +65,7 @@ impl From<InstanceError> for Refusal {
     }
 }
 
-/// What an instance refuses, raised.
+/// Raises an error of an instance.
 pub(crate) fn raise(py: Python<'_>) -> impl Fn(InstanceError) -> PyErr + '_ {
     move |error| Refusal::from(error).raised(py)
 }

@@ -4,13 +4,13 @@
 //!
 //! Each uses only those before it:
 //!
-//! - `error`: what went wrong, as the exceptions of `dbd`.
-//! - `shipped`: the scenes that ship, by name.
+//! - `error`: errors as exceptions of `dbd`.
+//! - `shipped`: the built-in scenes, by name.
 //! - `rollout`: runs of many steps, and of many plants on threads.
-//! - `arguments`: what Python hands over, and what it gets back as arrays.
+//! - `arguments`: arguments from Python, and results as arrays.
 //! - `states`: the bodies' states as arrays.
 //! - `plant`: the class `Plant`, its names and parameters.
-//! - `motion`: its methods that step, set, read and save.
+//! - `motion`: its methods for stepping, setting, reading and saving.
 
 mod error;
 mod shipped;
@@ -33,22 +33,22 @@ use pyo3::prelude::*;
 use crate::arguments::Held;
 use crate::plant::Plant;
 
-/// Runs several plants of the same scene on threads, without holding the interpreter.
+/// Runs several plants of the same scene on threads; the interpreter is released meanwhile.
 ///
 /// Args:
-///     plants: Plants that have the same inputs and outputs by name, each once.
-///     u: plants × samples × inputs, or plants × samples where there is one input: what inputs are held
-///         at [their units]; or an int, so many samples with the inputs as they are.
-///     every: Steps of each sample.
-///     outputs: Names of the columns, ``"time"`` among them is the time; all outputs if not said.
-///     inputs: Names of the columns of `u`; all inputs, in scene order, if not said.
-///     threads: How many; as many as the machine runs at once if not said.
+///     plants: Distinct plants with the same input and output names.
+///     u: plants × samples × inputs, or plants × samples for one input: the held input values
+///         [their units]; or an int, the number of samples with the present inputs.
+///     every: Steps per sample.
+///     outputs: Names of the columns, including ``"time"``; default: all outputs.
+///     inputs: Names of the columns of `u`; default: all inputs, in scene order.
+///     threads: Number of threads; default: as many as the machine runs in parallel.
 ///
 /// Returns:
-///     An array of plants × samples × outputs, each with the bits of `Plant.rollout`, whatever the threads.
+///     An array of plants × samples × outputs, bit-identical to `Plant.rollout` for any number of threads.
 ///
 /// Raises:
-///     As `Plant.rollout`, of the first plant that was refused, ``error.plant`` being its place; the others have run.
+///     As `Plant.rollout`, for the first plant with an error; ``error.plant`` is its index; the others have run.
 #[pyfunction]
 #[pyo3(signature = (plants, u, every=1, outputs=None, *, inputs=None, threads=None))]
 fn rollouts<'py>(
@@ -61,12 +61,12 @@ fn rollouts<'py>(
     threads: Option<usize>,
 ) -> PyResult<Bound<'py, PyArray3<f64>>> {
     let Some(first) = plants.first() else {
-        return Err(PyValueError::new_err("there is no plant to run; one at least"));
+        return Err(PyValueError::new_err("no plants given; pass at least one"));
     };
     for (row, plant) in plants.iter().enumerate() {
         if plants[..row].iter().any(|other| other.is(plant)) {
             return Err(PyValueError::new_err(format!(
-                "plant {row} is there twice; copy() makes another"
+                "plant {row} is given twice; use copy() to make another"
             )));
         }
         alike(py, first, plant, row)?;
@@ -80,14 +80,14 @@ fn rollouts<'py>(
     let rows = py.detach(|| course.run_all(&instances, &held, threads.unwrap_or(1)));
     let rows = rows.map_err(|(row, stop)| {
         let error = stop.raised(py);
-        // An exception that takes no attributes is still the exception.
+        // An exception that rejects attributes is raised without them.
         drop(error.value(py).setattr("plant", row));
         error
     })?;
     PyArray1::from_vec(py, rows).reshape([plants.len(), course.samples, course.columns.len()])
 }
 
-/// Refuses a plant of another scene's inputs or outputs.
+/// Rejects a plant with other inputs or outputs.
 fn alike(
     py: Python<'_>,
     first: &Bound<'_, Plant>,
@@ -105,7 +105,7 @@ fn alike(
         return Ok(());
     }
     Err(PyValueError::new_err(format!(
-        "plant {row} has other inputs or outputs than the first; one scene's plants"
+        "plant {row} has other inputs or outputs than the first; use plants of one scene"
     )))
 }
 

@@ -1,4 +1,4 @@
-//! What a plant does: the methods of `Plant` that step, set, read and save.
+//! The methods of `Plant` for stepping, setting, reading and saving.
 //!
 //! `(inputs, steps) => outputs, states` as numbers and numpy arrays.
 
@@ -43,7 +43,7 @@ impl Plant {
         self.held(py)?.advance(1).map_err(raise(py))
     }
 
-    /// So many steps with held inputs. Other threads run meanwhile.
+    /// Advances by the given number of steps with held inputs. Other threads run meanwhile.
     ///
     /// Raises:
     ///     StepFailed: A step failed, or one has before.
@@ -51,26 +51,26 @@ impl Plant {
         self.advanced(py, |_| Ok(steps))
     }
 
-    /// On to a time [s], or a text with a unit as ``"20ms"``, within a hundredth of a step a whole number of steps.
+    /// Advances to a time [s], or a text with a unit as ``"20ms"``; it must be a whole number of steps to 0.01 steps.
     /// Other threads run meanwhile.
     ///
     /// Raises:
-    ///     TimeError: It is no time, no whole number of steps, has passed, or is not finite; nothing is changed then.
+    ///     TimeError: It is not a valid time or whole number of steps, or has passed; nothing is changed then.
     ///     StepFailed: A step failed, or one has before.
     fn advance_to(&self, py: Python<'_>, time: Seconds) -> PyResult<()> {
         self.advanced(py, |instance| instance.steps_to(time.0))
     }
 
-    /// Back to t = 0 with the parameters as they are; inputs have their first values.
+    /// Resets to t = 0 with the present parameters and the initial inputs.
     fn reset(&self, py: Python<'_>) -> PyResult<()> {
         self.held(py)?.reset();
         Ok(())
     }
 
-    /// Holds an input at a value [its unit] until it is set again. The same as ``plant[name] = value``.
+    /// Sets an input to a value [its unit], held until it is set again. The same as ``plant[name] = value``.
     ///
     /// Raises:
-    ///     UnknownName: There is no such input.
+    ///     UnknownName: No input has this name.
     ///     InputError: The value is not finite in the precision; nothing is changed then.
     fn set(&self, py: Python<'_>, name: &str, value: f64) -> PyResult<()> {
         let mut instance = self.held(py)?;
@@ -78,11 +78,11 @@ impl Plant {
         instance.set_input(input, value).map_err(raise(py))
     }
 
-    /// An output as it is now, or what an input is held at [its unit]; NaN where it is undefined. The same as
+    /// The present value of an output or input [its unit]; NaN if undefined. The same as
     /// ``plant[name]``.
     ///
     /// Raises:
-    ///     UnknownName: There is no such output or input.
+    ///     UnknownName: No output or input has this name.
     fn get(&self, py: Python<'_>, name: &str) -> PyResult<f64> {
         let instance = self.held(py)?;
         if let Ok(input) = instance.input(name) {
@@ -103,10 +103,10 @@ impl Plant {
         self.get(py, name)
     }
 
-    /// Outputs as they are now: all, or those of the names, in their order; ``"time"`` is the time. An array of floats.
+    /// The present outputs: all, or the named ones, in this order; ``"time"`` is the time. An array of floats.
     ///
     /// Raises:
-    ///     UnknownName: There is no such output.
+    ///     UnknownName: No output has this name.
     #[pyo3(signature = (names=None))]
     fn read<'py>(
         &self,
@@ -132,11 +132,11 @@ impl Plant {
         py.import("dbd._state")?.getattr("State")?.call1(PyTuple::new(py, arrays)?)
     }
 
-    /// Gives the bodies other states; what is `None` stays. The time, inputs and the turns that are counted at
-    /// joints stay, so a joint's angle should be within half a turn of the present one. A failure is forgotten.
+    /// Sets the states of the bodies; `None` keeps a part. The time, inputs and revolution counts of
+    /// joints are kept, so a joint's angle should be within half a revolution of the present one. Clears a failure.
     ///
     /// Args:
-    ///     state: A `State`, or `None`; what the others give goes before it.
+    ///     state: A `State`, or `None`; the other arguments take precedence.
     ///     position: [m] bodies × 3, centres of mass in the world.
     ///     orientation: bodies × 4, unit quaternions, scalar first, body to world.
     ///     velocity: [m/s] bodies × 3, of the centres of mass in the world.
@@ -176,8 +176,8 @@ impl Plant {
         states::set(&mut instance, &parts).map_err(|refusal| refusal.raised(py))
     }
 
-    /// The state, inputs and set parameters included, as bytes that a plant of the same scene, scheme,
-    /// precision and step takes up on any machine.
+    /// The state, including inputs and set parameters, as bytes for a plant of the same scene, scheme,
+    /// precision and step on any machine.
     ///
     /// Raises:
     ///     StateError: The plant has failed.
@@ -185,7 +185,7 @@ impl Plant {
         Ok(PyBytes::new(py, &self.held(py)?.save().map_err(raise(py))?))
     }
 
-    /// Goes on from a saved state, bit for bit; a failure is forgotten.
+    /// Restores a saved state bit for bit; clears a failure.
     ///
     /// Raises:
     ///     StateError: The bytes are damaged, or of another scene or method; nothing is changed then.
@@ -196,17 +196,17 @@ impl Plant {
     /// Runs with inputs that are held for `every` steps each. Other threads run meanwhile.
     ///
     /// Args:
-    ///     u: samples × inputs, or samples where there is one input: what inputs are held at [their units]; or
-    ///         an int, so many samples with the inputs as they are.
-    ///     every: Steps of each sample.
-    ///     outputs: Names of the columns, ``"time"`` among them is the time; all outputs if not said.
-    ///     inputs: Names of the columns of `u`; all inputs, in scene order, if not said.
+    ///     u: samples × inputs, or samples for one input: the held input values [their units]; or
+    ///         an int, the number of samples with the present inputs.
+    ///     every: Steps per sample.
+    ///     outputs: Names of the columns, including ``"time"``; default: all outputs.
+    ///     inputs: Names of the columns of `u`; default: all inputs, in scene order.
     ///
     /// Returns:
-    ///     An array of samples × outputs: what they are after each hold. The state at the beginning is not in it.
+    ///     An array of samples × outputs, after each hold. The initial state is not included.
     ///
     /// Raises:
-    ///     UnknownName, InputError, StepFailed: as `set` and `advance`; the plant stays where it was refused.
+    ///     UnknownName, InputError, StepFailed: as `set` and `advance`; the plant stays at the failed sample.
     #[pyo3(signature = (u, every=1, outputs=None, *, inputs=None))]
     fn rollout<'py>(
         &self,
@@ -225,18 +225,18 @@ impl Plant {
         arguments::shaped(py, rows, course.samples, course.columns.len())
     }
 
-    /// The plant as a linear system near its present state. See `dbd.Linear` for what it is.
+    /// The plant as a linear system near its present state, see `dbd.Linear`.
     ///
     /// Args:
-    ///     states: Names of outputs that are the states of the linear system. `None`: twelve coordinates per body.
-    ///     inputs: Names; all inputs if not said.
-    ///     outputs: Names; the states if not said, without states all read-outs.
-    ///     perturb: [m, rad, m/s, rad/s] of the differences, which are of fourth order.
+    ///     states: Names of outputs to use as states of the linear system. `None`: twelve coordinates per body.
+    ///     inputs: Names; default: all inputs.
+    ///     outputs: Names; default: the states, or all read-outs without states.
+    ///     perturb: [m, rad, m/s, rad/s] perturbation of the fourth-order differences.
     ///
     /// Raises:
-    ///     LinearisationError: The states are not those of the slow motions, `perturb` is not between 0 and 0.1,
-    ///         or something is undefined here.
-    ///     UnknownName: There is no such output or input.
+    ///     LinearisationError: The states do not describe the slow motions, `perturb` is not between 0 and 0.1,
+    ///         or a value is undefined in this state.
+    ///     UnknownName: No output or input has this name.
     #[pyo3(signature = (states=None, inputs=None, outputs=None, *, perturb=1e-5))]
     fn linearise<'py>(
         &self,

@@ -13,25 +13,25 @@ use crate::arguments::Seconds;
 use crate::error::{Refusal, raise};
 use crate::shipped::{Called, called};
 
-/// A scene's plant: a multibody system that is stepped with the bits of the firmware.
+/// A scene's plant: a multibody system, bit-identical to the firmware.
 ///
 /// Args:
-///     scene: Path of a scene file, TOML, or the name of a scene that ships, such as ``four-bar``: a key of
-///         ``dbd.SCENES``. A file of that name goes first.
-///     scheme: How it is stepped, as ``host-sim run --scheme``; ``leapfrog`` if not said.
-///     newton: Newton iterations of the schemes that have them.
-///     rho: What ``generalized-alpha`` leaves per step of a vibration it does not resolve, 0 to 0.8.
-///     damping: How dampers are stepped, as ``host-sim run --damping``.
-///     precision: ``f64``, ``f32``, ``fixed``, as ``host-sim run --precision``; ``f64`` if not said.
-///     step: [s] the step, or a text with a unit, ``"250us"``; the scene's if not said, else the advised one.
-///     changes: Changes of the scene's values, each ``"PATH=VALUE"`` as of ``host-sim run --set``.
+///     scene: Path of a TOML scene file, or the name of a built-in scene, such as ``four-bar``: a key of
+///         ``dbd.SCENES``. A file of that name takes precedence.
+///     scheme: Time-stepping scheme, as ``host-sim run --scheme``; default: ``leapfrog``.
+///     newton: Newton iterations, for schemes that have them.
+///     rho: Spectral radius of ``generalized-alpha`` at infinite frequency, 0 to 0.8.
+///     damping: Damping method, as ``host-sim run --damping``.
+///     precision: ``f64``, ``f32``, ``fixed``, as ``host-sim run --precision``; default: ``f64``.
+///     step: [s] the step, or a text with a unit, ``"250us"``; default: the scene's, else the advised one.
+///     changes: Changes of the scene's values, each ``"PATH=VALUE"`` as for ``host-sim run --set``.
 ///
-/// A plant begins at t = 0. It may be used from any thread, by one at a time.
+/// A plant starts at t = 0. It may be used from any thread, one at a time.
 ///
 /// Raises:
-///     SceneError: The scene cannot be read or is refused.
-///     MethodError: There is no such scheme, damping or precision, or it does not go with the scene.
-///     TimeError: The step's text is no time.
+///     SceneError: The scene cannot be read or is invalid.
+///     MethodError: The scheme, damping or precision is unknown or not compatible with the scene.
+///     TimeError: The step's text is not a valid time.
 #[pyclass(frozen, subclass, module = "dbd")]
 pub(crate) struct Plant {
     pub(crate) instance: Mutex<Instance>,
@@ -43,11 +43,11 @@ impl Plant {
         Ok(Self { instance: Mutex::new(instance.map_err(raise(py))?) })
     }
 
-    /// The instance, or that another thread has it.
+    /// The instance, or an error if another thread uses it.
     pub(crate) fn held(&self, py: Python<'_>) -> PyResult<MutexGuard<'_, Instance>> {
         match self.instance.try_lock() {
             Ok(instance) => Ok(instance),
-            // Its state is plain numbers: whole after any step.
+            // Its state is plain numbers: consistent after any step.
             Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
             Err(TryLockError::WouldBlock) => Err(Refusal::busy().raised(py)),
         }
@@ -75,11 +75,10 @@ impl Plant {
             Called::File => Blueprint::load(scene).map_err(|error| raise(py)(error.into()))?,
             Called::Unknown(near) => {
                 let help = near.map_or_else(
-                    || "dbd.SCENES has the names".to_owned(),
+                    || "dbd.SCENES lists the built-in scenes".to_owned(),
                     |near| format!("did you mean `{near}`?"),
                 );
-                let sentence =
-                    format!("there is no file and no scene `{}`; {help}", scene.display());
+                let sentence = format!("no file or built-in scene `{}`; {help}", scene.display());
                 return Err(Refusal::new("SceneError", sentence).raised(py));
             }
         };
@@ -92,9 +91,9 @@ impl Plant {
     ///
     /// Args:
     ///     text: The scene, TOML.
-    ///     name: What messages call the text.
+    ///     name: The text's name in messages.
     ///
-    /// The other arguments and what is raised are those of the class.
+    /// The other arguments and the exceptions are those of the class.
     #[staticmethod]
     #[pyo3(signature = (text, name="scene.toml", *, scheme=None, newton=None, rho=None, damping=None, precision=None, step=None, changes=Vec::new()))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
@@ -121,7 +120,7 @@ impl Plant {
         Ok(self.held(py)?.scene().name.clone())
     }
 
-    /// [s] the duration that the scene gives: how long ``host-sim run`` goes on. A plant goes on beyond it.
+    /// [s] the scene's duration, at which ``host-sim run`` ends. A plant may continue beyond it.
     #[getter]
     fn duration(&self, py: Python<'_>) -> PyResult<f64> {
         Ok(self.held(py)?.scene().duration)
@@ -177,7 +176,7 @@ impl Plant {
         mapping(py, instance.outputs().iter().map(|output| (output.name.as_str(), output.unit)))
     }
 
-    /// Outputs: name → what it is, in a few words.
+    /// Outputs: name → short description.
     #[getter]
     fn descriptions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyMappingProxy>> {
         let instance = self.held(py)?;
@@ -185,7 +184,7 @@ impl Plant {
         mapping(py, outputs.map(|output| (output.name.as_str(), output.description.as_str())))
     }
 
-    /// Parameters, all numbers that the scene writes: path → value now, in SI units. `set_parameters` sets them.
+    /// Parameters, i.e. all numbers in the scene: path → present value, in SI units. `set_parameters` sets them.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyMappingProxy>> {
         let numbers = self.held(py)?.parameters().map_err(raise(py))?;
@@ -199,10 +198,10 @@ impl Plant {
         mapping(py, numbers.into_iter().map(|number| (number.path, number.unit)))
     }
 
-    /// Sets parameters, path → value in SI units, and goes back to t = 0; inputs stay as they are held.
+    /// Sets parameters, path → value in SI units, and resets to t = 0; inputs are kept.
     ///
     /// Raises:
-    ///     SceneError: A path leads nowhere, or the scene is refused with the values; nothing is changed then.
+    ///     SceneError: A path does not exist, or the values make the scene invalid; nothing is changed then.
     ///     InputError: A value is not finite; nothing is changed then.
     fn set_parameters(&self, py: Python<'_>, parameters: BTreeMap<String, f64>) -> PyResult<()> {
         let pairs = parameters.iter().map(|(path, value)| (path.as_str(), *value));
@@ -258,7 +257,7 @@ impl Plant {
     }
 }
 
-/// A mapping that nobody changes by mistake.
+/// A read-only mapping.
 fn mapping<'py, K: IntoPyObject<'py>, V: IntoPyObject<'py>>(
     py: Python<'py>,
     pairs: impl Iterator<Item = (K, V)>,

@@ -1,7 +1,7 @@
 //! Runs of many steps, and of many plants on threads.
 //!
-//! `(plant, inputs held for some steps each) => outputs after each hold`. No interpreter is needed meanwhile; every
-//! tenth of a second a run looks whether it was interrupted.
+//! `(plant, inputs held for some steps each) => outputs after each hold`. The interpreter is released meanwhile; every
+//! tenth of a second a run checks for interrupts.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -14,15 +14,15 @@ use pyo3::prelude::*;
 
 use crate::error::Refusal;
 
-/// How often a run looks for an interrupt.
+/// Interval of interrupt checks.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Steps between two looks at the clock: some tenths of a millisecond of small scenes.
+/// Steps between two reads of the clock: some tenths of a millisecond for small scenes.
 const STRIDE: u64 = 256;
 
-/// What ended a run.
+/// The reason for the end of a run.
 pub(crate) enum Stop {
-    /// What the plant refused, or a step that failed.
+    /// An error of the plant, or a failed step.
     Refused(Refusal),
     /// An interrupt.
     Interrupted(PyErr),
@@ -44,24 +44,24 @@ impl From<dbd_plant::instance::InstanceError> for Stop {
     }
 }
 
-/// Whether there was an interrupt; only the main thread is told.
+/// Whether there was an interrupt; only the main thread receives them.
 fn interrupted() -> Result<(), Stop> {
     Python::attach(|py| py.check_signals()).map_err(Stop::Interrupted)
 }
 
-/// When a run looked last for an interrupt, and whether another thread has seen one.
+/// Time of the last interrupt check, and whether another thread has received one.
 pub(crate) struct Watch<'s> {
     looked: Instant,
     ended: &'s AtomicBool,
 }
 
 impl<'s> Watch<'s> {
-    /// A run that ends where `ended` says so.
+    /// A run that ends when `ended` is set.
     pub(crate) fn new(ended: &'s AtomicBool) -> Self {
         Self { looked: Instant::now(), ended }
     }
 
-    /// So many steps; interrupts end them.
+    /// Advances by the given number of steps, or until an interrupt.
     pub(crate) fn advance(&mut self, instance: &mut Instance, steps: u64) -> Result<(), Stop> {
         let mut left = steps;
         while left > 0 {
@@ -80,13 +80,13 @@ impl<'s> Watch<'s> {
     }
 }
 
-/// What a run is given and shows: the same for each of several plants.
+/// Inputs and outputs of a run, the same for each of several plants.
 pub(crate) struct Course {
-    /// Inputs that are driven, by their places.
+    /// Indices of the driven inputs.
     pub(crate) inputs: Vec<usize>,
-    /// Outputs that are noted, by their places; `None` is the time.
+    /// Indices of the recorded outputs; `None` is the time.
     pub(crate) columns: Vec<Option<usize>>,
-    /// How many holds.
+    /// Number of holds.
     pub(crate) samples: usize,
     /// Steps of each.
     pub(crate) every: u64,
@@ -113,7 +113,7 @@ impl Course {
     }
 
     /// The same for several plants on threads: all their rows, plant after plant. `held` is theirs in
-    /// this order. All run even where one is refused; the first such is told.
+    /// this order. All run even if one fails; the first error is reported.
     pub(crate) fn run_all(
         &self,
         plants: &[&Mutex<Instance>],
@@ -150,7 +150,7 @@ impl Course {
             });
             let others: Vec<_> = others.collect();
             let mut results = work();
-            // Only this thread learns of interrupts, also while it only waits.
+            // Only this thread receives interrupts, even while it waits.
             while working.load(Ordering::Acquire) > 0
                 && !others.iter().all(thread::ScopedJoinHandle::is_finished)
             {
@@ -171,7 +171,7 @@ impl Course {
         if let Some(stop) = stopped {
             return Err((0, stop));
         }
-        // An interrupt goes before what was refused.
+        // An interrupt takes precedence over other errors.
         let cut = |(_, rows): &(usize, Result<_, Stop>)| matches!(rows, Err(Stop::Interrupted(_)));
         if let Some(place) = results.iter().position(cut)
             && let (row, Err(stop)) = results.swap_remove(place)
@@ -187,7 +187,7 @@ impl Course {
     }
 }
 
-/// Appends outputs as they are now; `None` is the time.
+/// Appends the present outputs; `None` is the time.
 pub(crate) fn read(instance: &Instance, columns: &[Option<usize>], values: &mut Vec<f64>) {
     let first = values.len();
     let places: Vec<usize> = columns.iter().map(|column| column.unwrap_or(usize::MAX)).collect();

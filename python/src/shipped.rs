@@ -1,4 +1,4 @@
-//! The scenes that ship, by name.
+//! The built-in scenes, by name.
 //!
 //! `name => text`.
 
@@ -7,13 +7,13 @@ use std::path::Path;
 /// Names and texts, by name.
 pub(crate) static SCENES: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/scenes.rs"));
 
-/// What a path that leads to no file may mean.
+/// The meaning of a scene argument.
 pub(crate) enum Called {
-    /// A file, there or not.
+    /// A file, existing or not.
     File,
-    /// A scene that ships: its name and text.
+    /// A built-in scene: its name and text.
     Shipped(&'static str, &'static str),
-    /// A name of none; the nearest one, where any is near.
+    /// An unknown name, with the nearest known one.
     Unknown(Option<&'static str>),
 }
 

@@ -9,7 +9,7 @@ use dbd_plant::instance::Instance;
 
 use crate::error::Refusal;
 
-/// What a body's state consists of, and how many numbers each has.
+/// The parts of a body's state with their numbers of components.
 pub(crate) const PARTS: [(&str, usize); 4] =
     [("position", 3), ("orientation", 4), ("velocity", 3), ("angular_velocity", 3)];
 
@@ -34,7 +34,7 @@ pub(crate) fn arrays(plant: &dyn AnyPlant) -> [Vec<f64>; 4] {
     all
 }
 
-/// Gives the bodies the parts that are there: each of bodies × its width.
+/// Sets the given parts of the bodies' states, each bodies × its width.
 pub(crate) fn set(instance: &mut Instance, given: &[Option<Vec<f64>>; 4]) -> Result<(), Refusal> {
     let mut state = instance.plant().state();
     for (row, body) in state.bodies.iter_mut().enumerate() {
@@ -59,7 +59,7 @@ pub(crate) fn set(instance: &mut Instance, given: &[Option<Vec<f64>>; 4]) -> Res
     refused.map_err(|error| Refusal::new("StateError", sentence(instance, &error)))
 }
 
-/// What is wrong with a state, the body by its name.
+/// The error of a state, with the body's name.
 fn sentence(instance: &Instance, error: &StateError) -> String {
     let name = |row: u16| {
         let names = &instance.scene().body_names;
@@ -68,11 +68,11 @@ fn sentence(instance: &Instance, error: &StateError) -> String {
     match error {
         StateError::NotFinite(body) => format!("the state of `{}` is not finite", name(body.0)),
         StateError::Extent(body) => {
-            format!("`{}` is farther away than fixed-point numbers hold", name(body.0))
+            format!("the position of `{}` exceeds the range of fixed-point numbers", name(body.0))
         }
         StateError::Orientation(body) => {
             format!(
-                "the orientation of `{}` is no unit quaternion; scalar first, of length 1",
+                "the orientation of `{}` is not a unit quaternion; give it scalar first, with length 1",
                 name(body.0)
             )
         }

@@ -82,8 +82,8 @@ def test_a_turning_body_is_in_the_whole_system() -> None:
 
 def test_states_that_are_not_the_slow_motions_are_refused() -> None:
     for states, words in [
-        (["cart_point.x", "angle", "cart_velocity.x"], "no 3 slow motions"),
-        (["cart_point.x", "cart.x", "cart_velocity.x", "rate"], "do not tell"),
+        (["cart_point.x", "angle", "cart_velocity.x"], "the 3 slowest motions"),
+        (["cart_point.x", "cart.x", "cart_velocity.x", "rate"], "do not distinguish"),
     ]:
         with pytest.raises(dbd.LinearisationError, match=words):
             upright().linearise(states)

@@ -42,7 +42,7 @@ fn check_counts_and_warns_without_running() {
     let done = call(&["check", &scene]);
     assert_eq!(done.exit, Exit::Done);
     for part in
-        ["body `stone` (line ", "no element holds it", "the scene's step of 50ms", "12; 12 with"]
+        ["body `stone` (line ", "no element acts on it", "the scene's step of 50ms", "12; 12 with"]
     {
         assert!(done.out.contains(part), "{part}: {}", done.out);
     }
@@ -164,7 +164,7 @@ fn a_spin_limits_the_step() {
     let spin = (3.0_f64 * 3.0 + 2.0 * 2.0 + 55.0 * 55.0).sqrt();
     assert!((advised * spin - 0.1).abs() < 1e-12, "{advised}");
     assert!(checked["frequency_bound_hz"].as_f64().unwrap() < 3.0);
-    assert!(call(&["check", &scene]).out.contains("of the fastest spin"));
+    assert!(call(&["check", &scene]).out.contains("of the fastest body"));
     assert_eq!(checked["warnings"].as_array().unwrap().len(), 0);
 
     let loss = |options: &[&str]| {

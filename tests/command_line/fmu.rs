@@ -64,11 +64,11 @@ fn nothing_is_written_where_something_is_wrong() {
     };
     refused(&[], "cargo build --release -p dbd-fmu");
     fs::write(&given, b"\x7fELF and something else").unwrap();
-    refused(&[], "is no library of dbd-fmu");
+    refused(&[], "is not a library of dbd-fmu");
     let mut other = library();
     other.truncate(70);
     fs::write(&given, other).unwrap();
-    refused(&[], "does not say that it reads");
+    refused(&[], "does not read the resources");
     fs::write(&given, library()).unwrap();
     refused(&["--fmi", "1"], "possible values: 2, 3");
     refused(&["--set", "body.cart.mass=-1"], "body.cart.mass=-1");
@@ -77,7 +77,7 @@ fn nothing_is_written_where_something_is_wrong() {
     fs::write(&file, "a letter").unwrap();
     let done = call_with(&[]);
     assert_eq!(done.exit, Exit::Refused);
-    assert!(done.err.contains("holds what is no FMU"), "{}", done.err);
+    assert!(done.err.contains("is not an FMU"), "{}", done.err);
     assert_eq!(fs::read_to_string(&file).unwrap(), "a letter");
     let nowhere = folder.path("none/cart.fmu");
     let done =

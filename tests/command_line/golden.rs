@@ -124,12 +124,12 @@ fn a_file_of_another_run_is_refused_before_anything_is_written() {
     refused(&with(&["--scheme", "pefrl"]), "another scheme: leapfrog (sweeps, 1 per step)");
     refused(&with(&["--precision", "f32"]), "another precision: f64 (quaternion)");
     refused(&["--step", "0.5ms", "--every", "50ms"], "another step: 0.001 s");
-    refused(&["--step", "1ms", "--every", "10ms"], "another interval: every 50 steps");
+    refused(&["--step", "1ms", "--every", "10ms"], "another sampling interval: every 50 steps");
     let other = [
-        (text.replacen("golden 1", "golden 9", 1), "version 9 of the format; known is 1"),
+        (text.replacen("golden 1", "golden 9", 1), "format version 9; expected 1"),
         (text.replacen("0.5", "0.6", 1), "line "),
-        (text[..text.len() / 2].to_owned(), "cut"),
-        ("x = 1\n".to_owned(), "line 1: this is no golden file"),
+        (text[..text.len() / 2].to_owned(), "truncated"),
+        ("x = 1\n".to_owned(), "line 1: not a golden file"),
     ];
     for (damaged, part) in other {
         fs::write(&file, damaged).unwrap();
@@ -163,9 +163,9 @@ fn bands_are_for_other_methods() {
     assert!(folder.path("a.golden.leapfrog-f32.new").exists());
     assert!(!done.err.contains("help:") && done.out.contains("a.golden: the run differs\n"));
     for (band, part) in [
-        ("-1", "`-1` is no band"),
-        ("position=1", "the orientation has no band"),
-        ("1,elbow=1", "a band is stated for `elbow`, which is not recorded"),
+        ("-1", "`-1` is not a valid band"),
+        ("position=1", "no band for the orientation"),
+        ("1,elbow=1", "a band is given for `elbow`, which is not recorded"),
     ] {
         let done = with(band);
         assert_eq!(done.exit, Exit::Refused);

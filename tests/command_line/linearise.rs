@@ -112,7 +112,7 @@ fn the_three_formats_hold_the_same_numbers() {
     let file = folder.path("a.m");
     let done = upright(&["--out", file.to_str().unwrap()]);
     assert_eq!(done.exit, Exit::Refused);
-    assert!(done.err.contains("has not written"), "{}", done.err);
+    assert!(done.err.contains("was not written by"), "{}", done.err);
     assert_eq!(fs::read_to_string(file).unwrap(), "x = 1;\n");
 }
 
@@ -154,9 +154,9 @@ fn what_is_wrong_is_refused_with_what_there_is() {
         (vec!["--states", "weight.yy"], "did you mean weight.y? the outputs: weight.x, weight.y"),
         (vec!["--outputs", "weight.q"], "has no output `weight.q`"),
         (vec!["--inputs", "pull"], "the inputs: push"),
-        (vec!["--at", "0.0004s"], "no whole number of steps"),
+        (vec!["--at", "0.0004s"], "not a whole number of steps"),
         (vec!["--at", "-1s"], "a time must be positive"),
-        (vec!["--states", "weight.y,weight.vy"], "no 2 slow motions"),
+        (vec!["--states", "weight.y,weight.vy"], "the 2 slowest motions"),
         (vec!["--out", out], "does not end with .json, .csv or .m"),
         (vec!["--set", "body.weight.mass=-1"], "must be a finite number > 0"),
     ] {

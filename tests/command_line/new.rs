@@ -192,7 +192,7 @@ fn a_project_steps_as_it_is_asked_to_or_as_its_scene_needs() {
     let scene = folder.scene(creeping);
     let (call, said) = built("slow", &["--scene", &scene]);
     assert!(call.contains(".precision(\"fixed\").write();"), "{call}");
-    assert!(said.contains("fixed, for in f32 body `carriage` has lost"), "{said}");
+    assert!(said.contains("fixed, because in f32 body `carriage` has lost"), "{said}");
     let (call, said) = built("single", &["--scene", &scene, "--precision", "f32"]);
     assert_eq!(
         (call.as_str(), said.contains("has lost")),
@@ -257,7 +257,7 @@ fn a_file_that_was_not_exported_is_not_replaced() {
     fs::write(&file, "fn main() {}\n").unwrap();
     let done = export("four-bar");
     assert_eq!(done.exit, Exit::Refused);
-    assert!(done.err.contains("has not exported"), "{}", done.err);
+    assert!(done.err.contains("was not written by"), "{}", done.err);
     assert_eq!(fs::read_to_string(&file).unwrap(), "fn main() {}\n");
     let out = folder.path("none/model.rs");
     assert_eq!(call(&["export", "four-bar", "--out", out.to_str().unwrap()]).exit, Exit::Failed);

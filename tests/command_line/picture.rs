@@ -35,7 +35,11 @@ fn what_is_no_picture_is_not_replaced() {
     let taken = folder.scene(PENDULUM);
     let done = call(&["check", &taken, "--svg", &taken]);
     assert_eq!((done.exit, done.out.as_str()), (Exit::Refused, ""));
-    assert!(done.err.contains("holds no SVG") && done.err.contains("another name"), "{}", done.err);
+    assert!(
+        done.err.contains("is not an SVG") && done.err.contains("another file"),
+        "{}",
+        done.err
+    );
     assert_eq!(fs::read_to_string(&taken).unwrap(), PENDULUM);
     let nowhere = folder.path("no/such/a.svg");
     let done = call(&["check", &taken, "--svg", nowhere.to_str().unwrap()]);

@@ -155,7 +155,7 @@ fn a_start_is_in_the_axes_that_the_body_is_written_in() {
         ([0.0, 0.0, 1.0], [0.0; 3])
     );
     for (wrong, said) in [
-        ("[start.c]\n", "`c` of [start] is no body of the scene"),
+        ("[start.c]\n", "`c` of [start] is not a body of the scene"),
         ("[start.b]\nplace = [0, 0, 1]\n", "[start.b] has no key `place`"),
         ("[start.b]\nposition = 1\n", "`position` of [start.b]"),
     ] {

@@ -117,7 +117,7 @@ fn inputs_and_joints_have_charts() {
     );
     let largest = summary["max_joint_extension"].as_f64().unwrap();
     assert!(row.starts_with(&dbd_plant::digits::significant(largest, 4)), "{row}");
-    for part in [summary["version"].as_str().unwrap(), "format of the trace</th><td>1<"] {
+    for part in [summary["version"].as_str().unwrap(), "trace format</th><td>1<"] {
         assert!(page.contains(part), "{part}");
     }
     assert_eq!(summary["samples"], doubles(&data["runs"][0]["times"]).len());

@@ -53,7 +53,7 @@ fn the_loss_that_a_run_tells_is_the_one_that_it_has() {
         assert!((lost(&text) / off - 1.0).abs() < 0.06, "{off:e}: {text}");
         assert!(text.contains("body `b`") && text.contains("fixed"), "{text}");
         // It was to be seen before the run, too.
-        assert!(said(&summary, "is short for single precision: body `b` starts").is_some());
+        assert!(said(&summary, "is too short for single precision: body `b` starts").is_some());
         for precision in ["f64", "fixed"] {
             let summary = folder.summary(&scene, &["--precision", precision, "--step", step]);
             assert_eq!(said(&summary, "lost"), None);
@@ -106,9 +106,9 @@ fn noise_of_forces_is_told_by_its_size() {
     };
     let stiff = folder.scene(&text("3e8"));
     let summary = folder.summary(&stiff, &["--precision", "f32"]);
-    let told = said(&summary, "at any moment").unwrap_or_else(|| panic!("{summary}"));
+    let told = said(&summary, "at any time").unwrap_or_else(|| panic!("{summary}"));
     let words: Vec<&str> = told.split_whitespace().collect();
-    let some = words.iter().position(|word| *word == "some").unwrap();
+    let some = words.iter().position(|word| *word == "about").unwrap();
     let size: f64 = words[some + 1].parse().unwrap();
     let trace = folder.trace("scene");
     let row = trace.header.iter().position(|name| name == "F.y").unwrap();
@@ -118,10 +118,10 @@ fn noise_of_forces_is_told_by_its_size() {
     // Before a run, too; not of softer joints, nor in double precision.
     let checked = call(&["check", &stiff]).out;
     assert!(checked.contains("in f32 read-out `"), "{checked}");
-    assert_eq!(said(&folder.summary(&stiff, &["--precision", "f64"]), "at any moment"), None);
+    assert_eq!(said(&folder.summary(&stiff, &["--precision", "f64"]), "at any time"), None);
     let soft = folder.scene(&text("3e4"));
-    assert_eq!(said(&folder.summary(&soft, &["--precision", "f32"]), "at any moment"), None);
-    assert!(!call(&["check", &soft]).out.contains("at any moment"));
+    assert_eq!(said(&folder.summary(&soft, &["--precision", "f32"]), "at any time"), None);
+    assert!(!call(&["check", &soft]).out.contains("at any time"));
 }
 
 /// A mechanism of a millimetre is coarse in fixed point.
@@ -139,6 +139,6 @@ fn small_mechanisms_are_told_of_in_fixed_point() {
     for (length, told) in [(1e-3, true), (1e-2, false)] {
         let scene = folder.scene(&text(length));
         let summary = folder.summary(&scene, &["--precision", "fixed"]);
-        assert_eq!(said(&summary, "fixed holds points to").is_some(), told, "{summary}");
+        assert_eq!(said(&summary, "fixed resolves points to").is_some(), told, "{summary}");
     }
 }

@@ -287,7 +287,7 @@ fn ideal_joints_are_chosen_and_said() {
     let often = folder.run("four-bar", &often);
     assert!(often.out.contains("\"status\": \"ok\""), "{} {}", often.out, often.err);
     let chosen = folder.run("four-bar", &["--ideal", "0.1mm", "--duration", "0.1s", "--json"]);
-    let note = chosen.err.lines().find(|line| line.contains("ideal joints to")).unwrap();
+    let note = chosen.err.lines().find(|line| line.contains("ideal joints, error")).unwrap();
     let (_, options) = note.split_once("): ").unwrap();
     let words: Vec<&str> = options.split_whitespace().collect();
     assert!(words.contains(&"--scheme") && words.contains(&"--step"), "{note}");
@@ -305,11 +305,11 @@ fn ideal_joints_are_chosen_and_said() {
 fn ideal_joints_are_refused_where_there_are_none_or_the_method_is_given() {
     let folder = Folder::new();
     for (scene, words, said) in [
-        ("spring-ball", &["--ideal", "0.1mm"][..], "no joint that could be ideal"),
+        ("spring-ball", &["--ideal", "0.1mm"][..], "no joint that could be made ideal"),
         ("four-bar", &["--ideal", "soon"], "--ideal cannot be soon"),
         ("four-bar", &["--ideal", "0"], "--ideal cannot be 0"),
         ("four-bar", &["--ideal", "0.1mm", "--step", "1ms"], "cannot be used with"),
-        ("four-bar", &["--ideal", "1e-15", "--duration", "0.05s"], "are not reached"),
+        ("four-bar", &["--ideal", "1e-15", "--duration", "0.05s"], "is not reachable"),
     ] {
         let refused = folder.run(scene, words);
         assert!(refused.err.contains(said), "{words:?}: {}", refused.err);
@@ -334,7 +334,7 @@ fn more_evaluations_than_the_schemes_are_explained() {
     let anew = evaluations - steps - 1;
     assert!(anew >= 2, "{anew}");
     let said =
-        format!("{evaluations} (1 per step, {anew} anew where a table or a load had changed)");
+        format!("{evaluations} (1 per step, {anew} repeated after changes of a table or a load)");
     assert!(line.ends_with(&said), "{line}");
     let (evaluations, steps, line) = of(&["--step", "1ms", "--scheme", "pefrl"]);
     assert_eq!(evaluations, 4 * steps);

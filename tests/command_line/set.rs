@@ -112,7 +112,7 @@ fn parameters_are_changed_and_told_with_their_units() {
     assert_eq!((&change["path"], &change["now"]), (&"parameters.m_bob".into(), &"0.75".into()));
     assert_eq!(change["before"], "\"500 g\"");
     let warnings = set["warnings"].to_string();
-    assert!(warnings.contains("parameter `unused` (line 1): no value"), "{warnings}");
+    assert!(warnings.contains("parameter `unused` (line 1): is unused"), "{warnings}");
     let done = call(&["check", &scene, "--set", "body.bob.mass=2 * m_bop"]);
     assert_eq!(done.exit, Exit::Refused);
     for part in ["--set:1:20", "`m_bop` is neither a unit nor", "did you mean `m_bob`?"] {

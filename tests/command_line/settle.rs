@@ -136,7 +136,7 @@ fn joints_start_at_the_angles_that_are_asked_for() {
         assert!(assembled.left.unwrap().distance < 1e-9);
     }
     let said = parse("nobody = 1").unwrap_err();
-    assert!(said.contains("is no joint") && said.contains("`angles`"), "{said}");
+    assert!(said.contains("is not a joint") && said.contains("`angles`"), "{said}");
     let said = parse("A0 = \"3 m\"").unwrap_err();
     assert!(said.contains("rad"), "{said}");
 }
@@ -145,9 +145,9 @@ fn joints_start_at_the_angles_that_are_asked_for() {
 fn what_cannot_rest_is_refused_with_its_reason() {
     let free = "[[body]]\nname = \"ball\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0]\n";
     let said = parsed(free).unwrap_err();
-    assert!(said.contains("finds no pose at which `ball` rests"), "{said}");
+    assert!(said.contains("finds no pose at which `ball` is at rest"), "{said}");
     let said = parsed(&format!("{free}velocity = [0, 0, 1]\n")).unwrap_err();
-    assert!(said.contains("`ball` to rest, which is given a velocity"), "{said}");
+    assert!(said.contains("`ball` to rest, which has an initial velocity"), "{said}");
 }
 
 #[test]

@@ -254,14 +254,14 @@ fn what_is_wrong_is_shown_in_its_place_and_nothing_is_written() {
             5,
             "[axes]\nbody.bob.mass = { from = -1, to = 2, count = 3, scale = \"logarithmic\" }",
             "6:26",
-            &["its scale logarithmic"],
+            &["its scale is logarithmic"],
         ),
         (
             5,
             "[axes]\nbody.bob.mass = { from = 1, to = 2, count = 3000 }\n\"gravity[1]\" = { from = 1, to = 2, \
              count = 4000 }",
             "5:1",
-            &["12000000 cases are more than 1000000"],
+            &["12000000 cases exceed the maximum of 1000000"],
         ),
         (
             5,
@@ -290,8 +290,8 @@ fn what_is_wrong_is_shown_in_its_place_and_nothing_is_written() {
             "5:19",
             &["latin-hypercube"],
         ),
-        (5, "[axes]\nstep = [\"1ms\"]", "6:1", &["is an axis and has a value for all cases"]),
-        (5, "[axes]\nduration = [\"10ms\"]\nevery = [\"3ms\"]", "", &["is an axis and has"]),
+        (5, "[axes]\nstep = [\"1ms\"]", "6:1", &["is both an axis and a fixed value"]),
+        (5, "[axes]\nduration = [\"10ms\"]\nevery = [\"3ms\"]", "", &["is both an axis and"]),
         (5, "a b\n", "5:3", &["toml.io"]),
     ] {
         assert_eq!(FIXED.lines().count() + 1, line);
@@ -320,9 +320,9 @@ fn what_is_wrong_is_shown_in_its_place_and_nothing_is_written() {
         assert!(done.exit == Exit::Refused && done.err.contains(word), "{}", done.err);
     }
     let input = folder.sweep("scene = \"-\"\n[axes]\nstep = [1e-3]\n");
-    assert!(folder.swept(&input, &[]).err.contains("does not come from standard input"));
+    assert!(folder.swept(&input, &[]).err.contains("cannot come from standard input"));
     let unknown = folder.sweep("scene = \"pendulun\"\n[axes]\nstep = [1e-3]\n");
-    assert!(folder.swept(&unknown, &[]).err.contains("there is no scene named \"pendulun\""));
+    assert!(folder.swept(&unknown, &[]).err.contains("no scene named \"pendulun\""));
 }
 
 #[test]

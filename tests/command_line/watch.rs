@@ -74,7 +74,7 @@ fn dampers_may_take_and_not_give() {
     let (exit, summary, said, totals) =
         watched(&folder, &stiff, &[&limit[..], &["--damping", "explicit"]].concat());
     assert_eq!(exit, Exit::Failed, "{summary}");
-    assert!(said.contains("above the least before"), "{said}");
+    assert!(said.contains("above the previous minimum"), "{said}");
     let least = totals.iter().copied().fold(f64::INFINITY, f64::min);
     assert!(totals[totals.len() - 1] - least > 1e-3);
 }

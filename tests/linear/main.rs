@@ -257,8 +257,12 @@ fn a_step_is_the_exponential_of_the_linear_system_to_the_scheme_s_order() {
 fn a_linear_system_that_there_is_not_is_refused_with_the_remedy() {
     let cart = cart(1.0, 1.0);
     for (states, outputs, words) in [
-        (&STATES[..3], &STATES[..], "there are no 3 slow motions here"),
-        (&["cart_point.x", "cart.x", "cart_velocity.x", "rate"], &STATES, "do not tell the 4"),
+        (&STATES[..3], &STATES[..], "the 3 slowest motions are not separated"),
+        (
+            &["cart_point.x", "cart.x", "cart_velocity.x", "rate"],
+            &STATES,
+            "do not distinguish the 4",
+        ),
         (&["angle", "angle"], &STATES, "each output once"),
         (&[], &STATES, "at least one"),
         (&["angel"], &STATES, "did you mean `angle`?"),

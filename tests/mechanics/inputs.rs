@@ -289,13 +289,13 @@ fn hung_from(row: u16) -> Model<F64, 1, 1, 2, 1, 0, 0, 0, 0, 0, 0, 1> {
 }
 
 #[test]
-#[should_panic(expected = "an anchor's input is there")]
+#[should_panic(expected = "the input of an anchor does not exist")]
 fn a_const_model_with_an_anchor_of_no_input_is_refused() {
     let _ = hung_from(1).checked();
 }
 
 #[test]
-#[should_panic(expected = "an anchor's input moves the ground")]
+#[should_panic(expected = "the input of an anchor does not move the ground")]
 fn a_const_model_with_an_anchor_of_another_input_is_refused() {
     let _ = hung_from(0).checked();
 }

@@ -10,6 +10,7 @@ mod pictures;
 mod proof;
 mod real_time;
 mod speed;
+mod words;
 
 use dbd_tests::page::{block, figure, grouped, table};
 use dbd_tests::results::{Row, cost, rows};

@@ -91,7 +91,9 @@ fn an_advised_step_is_taken_without_a_warning() {
             let advised = limits.limit(&way, None).advised;
             let said = |step| {
                 let all = of_step(&scene, &frequencies, &method, step, "the step");
-                all.iter().any(|said| said.contains("is beyond what") || said.contains("turns by"))
+                all.iter().any(|said| {
+                    said.contains("exceeds the stability limit") || said.contains("turns by")
+                })
             };
             assert!(!said(advised), "{name}, {method:?}: {advised:e}");
             beyond_bound += usize::from(frequencies.bound * advised > method.stability_limit());

@@ -1,7 +1,7 @@
-//! Work that takes its time is told to be still going on.
+//! Progress messages for long work.
 //!
 //! `(title, action) => lines "… title: N s" on standard error, the action's outcome`. Of work within
-//! work the innermost is told.
+//! work only the innermost is reported.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 const STILL: Duration = Duration::from_secs(30);
 
 thread_local! {
-    /// Whether the work at hand keeps silent, for other work within it speaks.
+    /// Whether the present work is silent, because other work within it prints progress.
     static SILENT: RefCell<Arc<AtomicBool>> = RefCell::default();
 }
 
@@ -69,7 +69,7 @@ mod tests {
             sleep(Duration::from_millis(200));
             before
         });
-        // Silent within, and told of again after it.
+        // Silent within, and reported again after it.
         assert_eq!(known, 0);
         assert!(count(&inner) > 0 && count(&outer) > 0);
     }

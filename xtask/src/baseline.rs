@@ -1,13 +1,13 @@
-//! Instruction counts that are kept, so that a change that costs is seen.
+//! Stored instruction counts, which reveal the cost of a change.
 //!
 //! `counts, file of counts by compiler and target => verdict`. Counts differ from compiler to compiler and from
-//! target to target: each pair has rows of its own. Where it has none, the counts are shown and not judged.
+//! target to target: each pair has its own rows. Without rows, the counts are shown but not compared.
 
 use anyhow::{Context as _, Result, bail};
 
 use crate::command::root;
 
-/// A count may lie this part of the baseline's beside it.
+/// Permitted relative deviation of a count from the baseline.
 const BAND: f64 = 0.02;
 
 /// A file of counts.
@@ -15,13 +15,13 @@ const BAND: f64 = 0.02;
 pub struct Baseline {
     /// Its path from the root.
     pub file: &'static str,
-    /// The columns that name what is counted.
+    /// The columns that name a count.
     pub names: &'static str,
-    /// What writes it.
+    /// The command that writes it.
     pub command: &'static str,
 }
 
-/// What counts depend on.
+/// The toolchain of the counts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
     /// The compiler with its version.
@@ -30,7 +30,7 @@ pub struct Key {
     pub target: String,
 }
 
-/// What was counted: the words of its name, instructions.
+/// A count: the words of its name, instructions.
 pub type Count = (String, u64);
 
 /// A row of the file.
@@ -82,7 +82,10 @@ impl Baseline {
         if own.is_empty() {
             println!("\n{names:<50} {:>10}", "now");
             counts.iter().for_each(|(name, count)| println!("{name:<50} {count:>10}"));
-            println!("{} has no rows of {compiler} for {target}: shown, not judged", self.file);
+            println!(
+                "{} has no rows of {compiler} for {target}: the counts are shown but not compared",
+                self.file
+            );
             return Ok(());
         }
         println!("\n{names:<50} {:>10} {:>10} {:>9}", "baseline", "now", "change");
@@ -102,7 +105,7 @@ impl Baseline {
         let missing = own.iter().filter(|known| !counted_too(known));
         outside.extend(missing.map(|known| format!("{} was not counted", known.name)));
         if !outside.is_empty() {
-            bail!("{} (where it is meant to be so: {})", outside.join("; "), self.command);
+            bail!("{} (if intended: {})", outside.join("; "), self.command);
         }
         println!("all within ±{:.0} % of the baseline of {compiler} for {target}", 100.0 * BAND);
         Ok(())
@@ -122,7 +125,7 @@ impl Baseline {
 
     fn read(&self, text: &str) -> Result<Vec<Row>> {
         if text.lines().next() != Some(&*self.header()) {
-            bail!("{} has another header than {}", self.file, self.header());
+            bail!("the header of {} is not {}", self.file, self.header());
         }
         let row = |line: &str| {
             let columns: Vec<&str> = line.split(',').collect();

@@ -27,7 +27,7 @@ pub fn run(arguments: &[String]) -> Result<()> {
     }
     let of = machine()?;
     let said = measured(&[&BENCH_PROGRAM[..], &["--", "--json"]].concat())?;
-    let bench: Value = serde_json::from_str(&said).context("the program said no JSON")?;
+    let bench: Value = serde_json::from_str(&said).context("the program printed no JSON")?;
     let text = serde_json::to_string_pretty(&json!({ "of": of, "bench": bench }))?;
     write(BENCH, &(text + "\n"))?;
     let said = measured(&["--package", "dbd-ensemble", "--example", "measure"])?;

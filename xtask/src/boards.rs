@@ -46,7 +46,7 @@ pub fn run(names: &[String]) -> Result<()> {
     execute(&toolchain, &names)
 }
 
-/// The sources are formatted: their workspace is none that the main one's check goes through.
+/// Checks the formatting of the sources, whose workspace the main check does not include.
 ///
 /// # Errors
 /// Where they are not.
@@ -89,7 +89,7 @@ fn features<'p>(programs: &[&'p str]) -> impl Iterator<Item = &'p str> {
 
 fn build(toolchain: &Toolchain, programs: &[&str], features: &[&str]) -> Result<Command> {
     if let Some(name) = programs.iter().find(|name| !PROGRAMS.contains(name)) {
-        bail!("there is no program `{name}` in {FOLDER}; there are: {}", PROGRAMS.join(", "));
+        bail!("unknown program `{name}` in {FOLDER}; known programs: {}", PROGRAMS.join(", "));
     }
     Ok(cargo_in(toolchain, "build", programs, features))
 }
@@ -146,7 +146,7 @@ fn judge(lines: &[String], golden: &Hashes) -> Result<()> {
     let paces: Vec<Pace> = lines.iter().filter_map(|line| pace(line)).collect();
     let Some((forced, kept)) = paces.split_last().filter(|(_, kept)| kept.len() >= STEPPED.len())
     else {
-        bail!("it printed {} lines of its pace", paces.len());
+        bail!("it printed {} pace lines", paces.len());
     };
     if let Some(pace) = kept.iter().find(|pace| pace.overruns > 0) {
         bail!("{} overruns with {} steps per tick", pace.overruns, pace.steps_per_tick);
@@ -208,7 +208,7 @@ mod tests {
         let found = judged(|lines| drop(lines.remove(0)));
         assert!(found.contains("no hash of four-bar leapfrog f32 after 10000"), "{found}");
         let found = judged(|lines| drop(lines.pop()));
-        assert_eq!(found, "it printed 2 lines of its pace");
+        assert_eq!(found, "it printed 2 pace lines");
     }
 
     #[test]

@@ -74,7 +74,7 @@ fn programs(messages: &str) -> Result<Vec<Program>> {
             continue;
         };
         let program = program(&message, path);
-        programs.push(program.with_context(|| format!("cargo's message lacks a part: {line}"))?);
+        programs.push(program.with_context(|| format!("incomplete message from cargo: {line}"))?);
     }
     Ok(programs)
 }

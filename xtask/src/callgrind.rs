@@ -18,7 +18,7 @@ pub fn count(path: &Path, functions: &str, arguments: &[&str]) -> Result<u64> {
     command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--log-fd=1"]);
     command.arg(format!("--toggle-collect={functions}"));
     let said = output(command.arg(path).args(arguments))?;
-    collected(&said).with_context(|| format!("callgrind said no count:\n{said}"))
+    collected(&said).with_context(|| format!("callgrind printed no count:\n{said}"))
 }
 
 /// The count in what callgrind says. None at all means that it did not meet the function.

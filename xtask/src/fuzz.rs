@@ -10,19 +10,19 @@ use clap::Args;
 
 use crate::command::{cargo, run as run_command};
 
-/// What a campaign is asked for.
+/// The settings of a campaign.
 #[derive(Args)]
 pub struct Campaign {
-    /// Seconds for all targets together.
+    /// Total seconds for all targets.
     #[arg(required_unless_present = "replay")]
     seconds: Option<f64>,
-    /// One of scene, snapshot, step, line and command-line, as often as wanted; all where none is named.
+    /// One of scene, snapshot, step, line and command-line; may be repeated [default: all].
     #[arg(long = "target", value_name = "NAME")]
     targets: Vec<String>,
-    /// What inputs are made from: the same again [default: the clock].
+    /// Seed of the inputs [default: the clock].
     #[arg(long)]
     seed: Option<u64>,
-    /// Runs these inputs again, and shows them.
+    /// Run these inputs again, and show them.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["seconds", "targets", "seed"])]
     replay: Vec<PathBuf>,
 }

@@ -91,7 +91,7 @@ fn judge(rows: &[Row], sizes: &[u64]) -> Result<()> {
     if !above.is_empty() {
         bail!("{}; at most {MOST} is linear", above.join(", "));
     }
-    println!("no exponent is above {MOST}");
+    println!("all exponents are at most {MOST}");
     Ok(())
 }
 

@@ -102,7 +102,7 @@ impl Bench {
         let bad = self.driven(FAST, &[&short[..], &["--disturb", BAD_LINE]].concat())?;
         for part in ["/own/repeated", "/own/bad", "/plant/bad", "/plant/repeated"] {
             if bad.number(part)? == 0 {
-                bail!("the line was bad, but {part} is 0");
+                bail!("the line was disturbed, but {part} is 0");
             }
         }
         bad.tell("bad line");
@@ -121,7 +121,10 @@ impl Bench {
             let paced = self.driven(PACED, &options.concat())?;
             paced.count("reconnected", 1)?;
             if paced.number("/plant/timeouts")? == 0 || paced.number("compared")? < 500 {
-                bail!("the silence was not noticed, or hardly a frame compared: {}", paced.said);
+                bail!(
+                    "the silence was not detected, or too few frames were compared: {}",
+                    paced.said
+                );
             }
             paced.tell(&format!("real time, {policy}"));
         }
@@ -134,12 +137,12 @@ impl Bench {
     /// The page's controller balances the pendulum.
     fn python(&self) -> Result<()> {
         if find("python3").is_none() {
-            println!("the controller in Python was left out: there is no python3");
+            println!("skipped the controller in Python: python3 is missing");
             return Ok(());
         }
         let page = std::fs::read_to_string(root().join(PAGE))?;
         let code = page.split("```python\n").nth(1).and_then(|rest| rest.split("```").next());
-        let code = code.with_context(|| format!("{PAGE} has no controller in Python"))?;
+        let code = code.with_context(|| format!("{PAGE} contains no controller in Python"))?;
         let (script, trace) = (self.folder.join("balance.py"), self.folder.join("trace.csv"));
         std::fs::write(&script, code)?;
         let controller = format!("python3 {}", script.display());
@@ -153,10 +156,10 @@ impl Bench {
         let last = column.zip(rows.lines().last()).and_then(|(at, row)| row.split(',').nth(at));
         let angle: f64 = last.context("the trace has no angle")?.parse()?;
         if (angle - UPRIGHT).abs() > NEAR {
-            bail!("the pendulum stands at {angle} rad, upright is {UPRIGHT} rad");
+            bail!("the pendulum is at {angle} rad, upright is {UPRIGHT} rad");
         }
         balanced.tell(&format!(
-            "balanced by {} lines of Python, {:.4} rad off upright at the end",
+            "balanced by {} lines of Python, {:.4} rad from upright at the end",
             code.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#')).count(),
             angle - UPRIGHT
         ));
@@ -188,7 +191,7 @@ impl Bench {
         chip.kill()?;
         chip.wait()?;
         let report =
-            Report { said: serde_json::from_str(&said?).context("host-sim said no JSON")? };
+            Report { said: serde_json::from_str(&said?).context("host-sim printed no JSON")? };
         report.count("compared", 500)?;
         report.tell("STM32F405, clean line");
         Ok(())
@@ -201,7 +204,7 @@ impl Bench {
         let said = String::from_utf8_lossy(&refused.stderr);
         if refused.status.code() != Some(1) || !said.contains("model (constants or initial state)")
         {
-            bail!("another model was not refused: {said}");
+            bail!("another model was accepted: {said}");
         }
         println!("another model is refused");
         Ok(())
@@ -215,7 +218,7 @@ impl Bench {
         let served = || {
             let mut serve = program(&self.host_sim);
             serve.args(["hil", SCENE, "--serve", "--port", &port, "--json", "--patience", "60s"]);
-            serde_json::from_str::<Value>(&output(&mut serve)?).context("host-sim said no JSON")
+            serde_json::from_str::<Value>(&output(&mut serve)?).context("host-sim printed no JSON")
         };
         let (lines, served) = std::thread::scope(|scope| {
             let chip = scope.spawn(|| {
@@ -231,10 +234,10 @@ impl Bench {
             lines.iter().filter(is_told).cloned().collect()
         };
         if told(&alone).is_empty() || told(&alone) != told(&lines) {
-            bail!("the controller on the chip did not do what it does beside its plant");
+            bail!("the controller on the chip behaves differently with a remote plant");
         }
         println!(
-            "the controller on the chip, its plant here: {TICKS} ticks with the bits of both on one machine, {} steps",
+            "the controller on the chip, its plant here: {TICKS} ticks bit-identical to both on one machine, {} steps",
             served["steps"]
         );
         Ok(())
@@ -248,7 +251,8 @@ impl Bench {
         if !done.status.success() {
             bail!("host-sim hil {} ended with {}\n{said}{error}", options.join(" "), done.status);
         }
-        let report = Report { said: serde_json::from_str(&said).context("host-sim said no JSON")? };
+        let report =
+            Report { said: serde_json::from_str(&said).context("host-sim printed no JSON")? };
         report.count("different", 0)?;
         Ok(report)
     }
@@ -323,7 +327,7 @@ impl Report {
     fn count(&self, path: &str, expected: u64) -> Result<()> {
         let found = self.number(path)?;
         if found != expected {
-            bail!("{path} is {found} and should be {expected}: {}", self.said);
+            bail!("{path} is {found}, expected {expected}: {}", self.said);
         }
         Ok(())
     }

@@ -34,9 +34,9 @@ pub fn build() -> Result<()> {
     let linux = folder.join("libdbd_fmu.so");
     std::fs::copy(for_linux(&folder)?, &linux).context("cannot copy the library")?;
     let asked = newest_symbol(&linux)?;
-    println!("{} asks for glibc {asked}", linux.display());
+    println!("{} requires glibc {asked}", linux.display());
     if version(&asked) > version(GLIBC) {
-        bail!("the library asks for glibc {asked}, {GLIBC} is the most");
+        bail!("the library requires glibc {asked}, at most {GLIBC} is permitted");
     }
     let windows = folder.join("dbd_fmu.dll");
     std::fs::copy(for_windows()?, &windows).context("cannot copy the library")?;
@@ -59,7 +59,7 @@ fn bare(command: &mut Command) -> &mut Command {
 
 fn for_linux(folder: &Path) -> Result<PathBuf> {
     let python = python::environment("libraries", "crates/fmu/requirements-libraries.txt")?;
-    let tools = python.parent().context("an interpreter lies in a folder")?.to_owned();
+    let tools = python.parent().context("the path of the interpreter has no folder")?.to_owned();
     let path = std::env::var_os("PATH").unwrap_or_default();
     let path =
         std::env::join_paths(std::iter::once(tools.clone()).chain(std::env::split_paths(&path)))?;
@@ -87,7 +87,10 @@ fn newest_symbol(library: &Path) -> Result<String> {
     let versions = symbols.split("GLIBC_").skip(1).map(|rest| {
         rest.split(|c: char| !(c.is_ascii_digit() || c == '.')).next().unwrap_or_default()
     });
-    versions.max_by_key(|text| version(text)).map(str::to_owned).context("no symbol of glibc")
+    versions
+        .max_by_key(|text| version(text))
+        .map(str::to_owned)
+        .context("the library has no symbols of glibc")
 }
 
 fn version(text: &str) -> Vec<u32> {
@@ -142,7 +145,7 @@ impl<'w> Programs<'w> {
         there.env("WINEPREFIX", self.folder.join("wine")).env("WINEDEBUG", "-all");
         let there = output(&mut there)?.replace('\r', "");
         if here.lines().count().to_string() != *steps || here != there {
-            bail!("{scene}: the libraries for Linux and Windows have other bits");
+            bail!("{scene}: the libraries for Linux and Windows give different bits");
         }
         println!("{scene}: {steps} × {variables} values, the same bits on Linux and Windows");
         Ok(())

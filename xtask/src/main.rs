@@ -9,12 +9,12 @@
 //!
 //! - `attended`, `command`, `built`, `steps`: other programs, what cargo builds, lists of steps.
 //! - [`chip`]: compiler, emulator and images of the target.
-//! - `baseline`, `provenance`: counts and data that are kept.
-//! - `audit`, `cost`, `callgrind`, `instructions`: what a step must not reach, and what it costs.
+//! - `baseline`, `provenance`: stored counts and measured data.
+//! - `audit`, `cost`, `callgrind`, `instructions`: forbidden calls of a step, and its cost.
 //! - `bench`, `growth`, `prove`, `precisions`, `compile_times`, `fuzz`: measurements and random input.
 //! - `playground`, `bits`: the kernel in a browser; the same bits everywhere.
-//! - `boards`, `hil`, `python`, `libraries`, `packages`, `semver`: firmware, other languages, what is published.
-//! - `test`: all that must hold.
+//! - `boards`, `hil`, `python`, `libraries`, `packages`, `semver`: firmware, other languages, published crates.
+//! - `test`: all checks.
 
 mod attended;
 mod audit;
@@ -62,28 +62,28 @@ enum Command {
     /// Finds or installs the target's compiler, the emulator and the tools that read its images, and
     /// the browser of the reports' tests.
     ///
-    /// DBD_TOOLCHAIN=prebuilt|rust-src|debian demands one of the three compilers.
+    /// DBD_TOOLCHAIN=prebuilt|rust-src|debian selects one of the three compilers.
     Setup,
-    /// Everything that must hold before a change is kept; on the host and on the target.
+    /// Runs all checks of a change, on the host and on the target.
     Test {
-        /// All steps of the hash program on the target, however many instructions they take.
+        /// Run all steps of the hash program on the target, without a limit of instructions.
         #[arg(long, conflicts_with = "quick")]
         long: bool,
-        /// On the host only, without the long tests: says what it leaves out.
+        /// Run on the host only, without the long tests; lists the omitted ones.
         #[arg(long)]
         quick: bool,
-        /// Writes the times of the steps and the slowest tests into docs/development.md.
+        /// Write the times of the steps and the slowest tests to docs/development.md.
         #[arg(long, conflicts_with = "quick")]
         write_times: bool,
     },
-    /// Runs the tests across the crates and lets them write the tables and pictures of README and
-    /// docs from what they compute; golden bits are only compared.
+    /// Runs the tests across the crates, which write the tables and pictures of README and
+    /// docs; golden bits are only compared.
     Tables,
     /// Builds a program of the firmware and runs it in QEMU.
     Fw {
         /// The program.
         name: String,
-        /// Sets no time limit.
+        /// Set no time limit.
         #[arg(long)]
         long: bool,
         /// Arguments of the program.
@@ -93,115 +93,115 @@ enum Command {
     /// Counts instructions and memory of a step on the target; writes docs/costs.csv and the
     /// baseline of this compiler.
     Cost {
-        /// Scenes to print, all of them where none is named. The file always holds all.
+        /// Scenes to print [default: all]. The file always contains all.
         scenes: Vec<String>,
-        /// Writes nothing: shows what differs from the file, and fails where a count rose by more
+        /// Write nothing: show the differences to the file, and fail if a count rose by more
         /// than 1 %.
         #[arg(long)]
         compare: bool,
-        /// Counts the sample alone and writes the baseline of this compiler, nothing else.
+        /// Count only the sample and write only the baseline of this compiler.
         #[arg(long, conflicts_with_all = ["compare", "scenes"])]
         baseline: bool,
-        /// Counts what the guards of the sample's models cost, and writes docs/results/guards.csv.
+        /// Count the cost of the guards of the sample's models, and write docs/results/guards.csv.
         #[arg(long, conflicts_with_all = ["compare", "scenes", "baseline"])]
         guards: bool,
     },
-    /// Counts the instructions of a step on this machine, by valgrind's callgrind: beside the flops of a
-    /// step, a plain loop's and the baseline of this compiler and target.
+    /// Counts the instructions of a step on this machine, by valgrind's callgrind, compared with the flops of a
+    /// step, a plain loop and the baseline of this compiler and target.
     Instructions {
-        /// Writes the baseline of this compiler and target, docs/instructions-baseline.csv.
+        /// Write the baseline of this compiler and target, docs/instructions-baseline.csv.
         #[arg(long)]
         baseline: bool,
     },
-    /// Counts how the work of reading and looking at a scene grows with its bodies, by valgrind's
-    /// callgrind; writes docs/results/growth.csv, fails where it grows faster than the bodies.
+    /// Counts how the work of reading and checking a scene grows with its bodies, by valgrind's
+    /// callgrind; writes docs/results/growth.csv, fails if it grows faster than the bodies.
     Growth,
-    /// Times steps and ensembles on this machine, which should do nothing else; writes docs/results/bench.json and
-    /// docs/results/ensembles.csv. With arguments it measures what these name and writes nothing
+    /// Times steps and ensembles on this machine, which should be idle otherwise; writes docs/results/bench.json and
+    /// docs/results/ensembles.csv. With arguments it measures only these and writes nothing
     Bench {
         /// Scenes and options: `--help` lists them
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<String>,
     },
-    /// Gives random input to the reader of scenes, to snapshots, to steps and to the command line, on
-    /// all cores; fails where anything fails.
+    /// Tests scene reading, snapshots, steps and the command line with random input, on
+    /// all cores; fails on any failure.
     Fuzz(fuzz::Campaign),
-    /// Steps scenes long in every precision and looks at what rounding does to their energy; writes
+    /// Runs scenes for a long time in every precision and measures the energy error from rounding; writes
     /// docs/results/precisions.csv.
     Precisions {
-        /// Scenes of that file, all of them where none is named.
+        /// Scenes of that file [default: all].
         scenes: Vec<String>,
     },
-    /// Tries all inputs where the tests try a sample: roots, arctangents, long runs; writes
+    /// Checks all inputs where the tests check a sample: roots, arctangents, long runs; writes
     /// docs/results/proof.csv.
     Prove {
-        /// `roots`, `arctangents`, `long-runs`; all of them where none is named.
+        /// `roots`, `arctangents`, `long-runs` [default: all].
         names: Vec<String>,
     },
     /// Compares the golden bits with other optimisations on the host, and in QEMU on other machines;
     /// writes docs/results/bits.csv.
     Bits {
-        /// Builds and machines to compare, all of them where none is named: the rows' first words.
+        /// Builds and machines to compare, by the first words of their rows [default: all].
         #[arg(value_name = "NAME")]
         names: Vec<String>,
     },
-    /// Runs controllers with their plants on the target: the host's bits, no tick missed at their rate.
+    /// Runs controllers with their plants on the target: bit-identical to the host, without missed ticks at their rate.
     Plant {
-        /// Ticks of each.
+        /// Number of ticks of each.
         #[arg(default_value_t = 100_000)]
         ticks: u32,
     },
     /// Hardware in the loop in QEMU: a plant on the chip and its controller here, and the reverse, on clean, bad and
     /// broken lines.
     Hil {
-        /// Breaks the line for 60 s instead of 1 s.
+        /// Break the line for 60 s instead of 1 s.
         #[arg(long)]
         long: bool,
     },
     /// Builds the programs of a chip with its community's HAL and runs them in QEMU: hashes must be the
-    /// golden ones, overruns must be counted where they are meant, and nowhere else.
+    /// golden ones, and overruns must occur exactly where intended.
     Boards {
-        /// `plain`, `rtic`, `embassy`; all of them where none is named.
+        /// `plain`, `rtic`, `embassy` [default: all].
         names: Vec<String>,
     },
     /// Writes a new firmware project, runs it in QEMU and tests it on the host.
     Project,
-    /// CPU time of the compiler, crate by crate, beside the budgets: of the README's first command and of the tests.
+    /// Measures the compiler's CPU time per crate against the budgets, for the README's first command and the tests.
     CompileTimes {
-        /// One of the builds; both where none is named.
+        /// One of the builds [default: both].
         builds: Vec<compile_times::Build>,
-        /// Makes what is measured the budget.
+        /// Write the measured times as the budget.
         #[arg(long)]
         write: bool,
     },
-    /// Notes files of data as measured at the present commit, where no command here measures them.
+    /// Records data files as measured at the present commit, if no command here measures them.
     Provenance {
         /// Paths from the root.
         #[arg(required = true)]
         files: Vec<String>,
-        /// Keeps stale data as they are; their tables call them stale.
+        /// Keep stale data unchanged; their tables mark them as stale.
         #[arg(long)]
         stale: bool,
     },
-    /// Holds FMUs of all scenes to their importers, and builds and tests the Python package.
+    /// Tests FMUs of all scenes with their importers, and builds and tests the Python package.
     Python,
     /// Builds the library of the FMUs for an older Linux and for Windows, and compares their bits under Wine.
     Libraries,
-    /// Builds the kernel in WebAssembly, which `host-sim play` puts on its pages, and docs/playground/index.html with all
+    /// Builds the kernel in WebAssembly for the pages of `host-sim play`, and docs/playground/index.html with all
     /// scenes.
     Playground {
-        /// Times steps in Chromium beside host-sim instead.
+        /// Only time steps in Chromium against host-sim.
         #[arg(long)]
         measure: bool,
     },
-    /// Looks whether the crates that are published can be packaged, and what their metadata lacks.
+    /// Checks that the published crates can be packaged and that their metadata are complete.
     Packages,
     /// Compares the published crates' interfaces with those of a revision, by cargo-semver-checks.
     Semver {
         /// A revision of this repository, e.g. the tag of a version.
         revision: String,
     },
-    /// Looks into the linked steps and calls for panics, allocation, fused and soft floating point.
+    /// Checks the linked steps and calls for panics, allocation, fused and soft floating point.
     Audit,
 }
 

@@ -25,7 +25,7 @@ pub fn check() -> Result<()> {
     let text =
         output(cargo().args(["metadata", "--no-deps", "--offline", "--format-version", "1"]))?;
     let metadata: Value = serde_json::from_str(&text).context("cargo printed no JSON")?;
-    let packages = metadata["packages"].as_array().context("cargo names no packages")?;
+    let packages = metadata["packages"].as_array().context("cargo listed no packages")?;
     let published: Vec<&Value> = packages.iter().filter(|package| is_published(package)).collect();
     let names: Vec<&str> = published.iter().map(|package| name(package)).collect();
     let mut missing: Vec<String> =
@@ -57,7 +57,7 @@ pub fn check() -> Result<()> {
 pub fn published() -> Result<Vec<String>> {
     let text = output(cargo().args(["metadata", "--no-deps", "--format-version", "1"]))?;
     let metadata: Value = serde_json::from_str(&text).context("cargo printed no JSON")?;
-    let packages = metadata["packages"].as_array().context("cargo names no packages")?;
+    let packages = metadata["packages"].as_array().context("cargo listed no packages")?;
     Ok(packages.iter().filter(|one| is_published(one)).map(|one| name(one).to_owned()).collect())
 }
 
@@ -89,7 +89,7 @@ fn lacks(package: &Value, published: &[&str]) -> Vec<String> {
         keywords
             .iter()
             .filter(|word| word.len() > KEYWORD)
-            .map(|word| format!("keyword {word} is long")),
+            .map(|word| format!("keyword {word} is too long")),
     );
     if words("categories").is_empty() {
         missing.push("no categories".into());
@@ -142,7 +142,7 @@ mod tests {
         for part in [
             "no description",
             "no rust-version",
-            "is long",
+            "is too long",
             "no categories",
             "all-features",
             "has no version",

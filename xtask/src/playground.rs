@@ -30,8 +30,8 @@ pub fn make() -> Result<()> {
     let built = build(cargo().args(["build", "--release", "--package", "host-sim"]))?;
     let host_sim = host_sim(&built)?;
     let beside = host_sim.with_file_name(MODULE);
-    std::fs::copy(&module, &beside).context("cannot put the module beside host-sim")?;
-    println!("{}: host-sim play finds it", beside.display());
+    std::fs::copy(&module, &beside).context("cannot copy the module next to host-sim")?;
+    println!("{}: for host-sim play", beside.display());
     let page = root().join(PAGE);
     run(program(host_sim).args(["play", "--all", "--no-open", "--out"]).arg(page))
 }
@@ -56,7 +56,7 @@ pub fn measure() -> Result<()> {
     let rows = said.lines().filter_map(|line| line.strip_prefix("measured,"));
     let rows: Vec<&str> = rows.collect();
     if rows.is_empty() {
-        bail!("nothing was measured:\n{said}");
+        bail!("no measurement was printed:\n{said}");
     }
     println!("{HEADER}\n{}", rows.join("\n"));
     Ok(())

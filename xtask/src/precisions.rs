@@ -28,7 +28,7 @@ pub fn run(scenes: &[String]) -> Result<()> {
     println!("$ {line}");
     let output = command.stderr(Stdio::inherit()).output();
     let output = output.with_context(|| format!("cannot run `{line}`"))?;
-    let table = String::from_utf8(output.stdout).context("its lines are no text")?;
+    let table = String::from_utf8(output.stdout).context("its output is not UTF-8")?;
     print!("{table}");
     if !output.status.success() || table.lines().count() < 2 {
         bail!("`{line}` ended with {}", output.status);

@@ -28,7 +28,7 @@ pub fn run(names: &[String]) -> Result<()> {
     println!("$ {line}");
     let output = command.stderr(Stdio::inherit()).output();
     let output = output.with_context(|| format!("cannot run `{line}`"))?;
-    let table = String::from_utf8(output.stdout).context("its lines are no text")?;
+    let table = String::from_utf8(output.stdout).context("its output is not UTF-8")?;
     print!("{table}");
     if table.lines().count() < 2 {
         bail!("`{line}` ended with {} and proved nothing", output.status);
@@ -39,7 +39,7 @@ pub fn run(names: &[String]) -> Result<()> {
         .with_context(|| format!("cannot write {FILE}"))?;
     println!("written: {FILE}");
     if !output.status.success() {
-        bail!("something is wrong, see above");
+        bail!("a proof failed, see above");
     }
     // What was not asked for is as old as it was.
     if names.is_empty() { crate::provenance::note(&[FILE]) } else { Ok(()) }

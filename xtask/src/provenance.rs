@@ -1,10 +1,10 @@
-//! Where measured data come from, so that none of them is older than what it measures.
+//! The origin of measured data, to detect data older than their sources.
 //!
-//! `data file => docs/results/provenance.csv: commit, date, its own fingerprint, that of what it stands on`. What
-//! measures notes its file here; `cargo xtask test` fails where a file was changed without a note, or where what it
-//! stands on has changed since. Counts on the target depend on the sample that every test counts anew, figures of
-//! motion on the golden bits, proofs on the sources of what they prove. Data that are kept although they are stale
-//! (`cargo xtask provenance --stale`) are called so below each table that shows them.
+//! `data file => docs/results/provenance.csv: commit, date, its own fingerprint, that of its sources`. Measuring
+//! commands record their files here; `cargo xtask test` fails if a file was changed without a record, or if its
+//! sources have changed since. Counts on the target depend on the sample that every test recounts, figures of
+//! motion on the golden bits, proofs on the proved sources. Stale data that are kept
+//! (`cargo xtask provenance --stale`) are marked below each of their tables.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -32,9 +32,9 @@ const SURVEY: &str = "host-sim trade, DBD_COLLECT (docs/trade.md), then cargo xt
 #[derive(Clone, Copy, Debug)]
 struct Data {
     file: &'static str,
-    /// Files and folders: where one of them is another, the data are stale.
+    /// Files and folders: if one of them has changed, the data are stale.
     stands_on: &'static [&'static str],
-    /// What measures it anew.
+    /// The command that measures it again.
     command: &'static str,
 }
 
@@ -90,7 +90,7 @@ pub fn check() -> Result<()> {
     if !faults.is_empty() {
         bail!("{}", faults.join("\n"));
     }
-    println!("{} files of data are those of the present sources", DATA.len());
+    println!("{} data files match the present sources", DATA.len());
     Ok(())
 }
 
@@ -103,8 +103,10 @@ pub fn keep(files: &[impl AsRef<str>]) -> Result<()> {
     let mut notes = read(&std::fs::read_to_string(root().join(FILE)).unwrap_or_default());
     for file in files.iter().map(AsRef::as_ref) {
         let data = DATA.iter().find(|data| data.file == file);
-        let data = data.with_context(|| format!("{file} is no file of data"))?;
-        let note = notes.get_mut(file).with_context(|| format!("{file} was never noted"))?;
+        let data = data.with_context(|| format!("{file} is not a data file"))?;
+        let note = notes
+            .get_mut(file)
+            .with_context(|| format!("{file} has no record of its measurement"))?;
         note.own = present(&[data.file])?;
         note.stale = present(data.stands_on)?;
     }
@@ -118,10 +120,10 @@ pub fn keep(files: &[impl AsRef<str>]) -> Result<()> {
 pub fn note(files: &[impl AsRef<str>]) -> Result<()> {
     let mut notes = read(&std::fs::read_to_string(root().join(FILE)).unwrap_or_default());
     let commit = output(program("git").args(["log", "-1", "--format=%h,%cs"]))?;
-    let (commit, date) = commit.trim().split_once(',').context("git names no commit")?;
+    let (commit, date) = commit.trim().split_once(',').context("git printed no commit")?;
     for file in files.iter().map(AsRef::as_ref) {
         let data = DATA.iter().find(|data| data.file == file);
-        let data = data.with_context(|| format!("{file} is no file of data"))?;
+        let data = data.with_context(|| format!("{file} is not a data file"))?;
         let note = Note {
             commit: commit.to_owned(),
             date: date.to_owned(),

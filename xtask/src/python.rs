@@ -77,11 +77,12 @@ pub fn environment(name: &str, requirements: &str) -> Result<PathBuf> {
     }
     // One that was left half made says nothing of what is in it.
     let make = ["-m", "venv", "--clear"];
-    output(program("python3").args(make).arg(&folder)).context("no virtual environment")?;
+    output(program("python3").args(make).arg(&folder))
+        .context("cannot create a virtual environment")?;
     let quiet = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"];
     println!("packages of {requirements} are installed into {}", shown(&folder));
     output(program(&python).args(quiet).arg(requirements))
-        .with_context(|| format!("the packages of {requirements} cannot be had"))?;
+        .with_context(|| format!("the packages of {requirements} cannot be installed"))?;
     std::fs::write(&stamp, wanted).with_context(|| format!("cannot write {}", stamp.display()))?;
     Ok(python)
 }

@@ -1,4 +1,4 @@
-//! Whether models have one structure: the same parts between the same bodies, whatever their numbers.
+//! Checks that models have the same structure: the same parts between the same bodies, with any parameters.
 //!
 //! `(model, model) => the first part that differs`.
 
@@ -8,19 +8,19 @@ use dbd_kernel::geometry::{Float, Named};
 use dbd_kernel::{BodyIndex, Load, LoadFrame, Real, TorsionSpring};
 use dbd_scene::SceneModel;
 
-/// In what two models differ that must not.
+/// A structural difference of two models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Difference {
-    /// One has more of these parts than the other.
+    /// The numbers of these parts differ.
     Count {
         /// The parts, in plural.
         parts: &'static str,
-        /// How many the first has.
+        /// Their number in the first.
         first: usize,
-        /// How many the other has.
+        /// Their number in the other.
         other: usize,
     },
-    /// This part joins other bodies, follows another law, or acts at other times.
+    /// This part connects other bodies, has another law, or acts at other times.
     Part {
         /// The kind of part.
         part: &'static str,
@@ -33,18 +33,18 @@ impl std::fmt::Display for Difference {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Count { parts, first, other } => {
-                write!(f, "it has {other} {parts}, the first instance {first}")
+                write!(f, "it has {other} {parts}; the first instance has {first}")
             }
             Self::Part { part, row } => write!(
                 f,
-                "its {part} {row} is between other bodies, of another kind or at another time than \
-                 the first instance's"
+                "its {part} {row} differs from that of the first instance in bodies, kind or \
+                 time"
             ),
         }
     }
 }
 
-/// The first part in which `other` has another structure than `first`.
+/// The first structural difference of `other` from `first`.
 pub(crate) fn difference<R: Real + Named>(
     first: &SceneModel<Float<R>>,
     other: &SceneModel<Float<R>>,
@@ -52,7 +52,7 @@ pub(crate) fn difference<R: Real + Named>(
     let counts = |model: &SceneModel<Float<R>>| {
         [
             ("bodies", model.bodies.len()),
-            ("fields of gravity", model.gravity.len()),
+            ("gravity fields", model.gravity.len()),
             ("joints and single elements", model.groups.len()),
             ("points", model.points.len()),
             ("TSDAs", model.tsdas.len()),
@@ -62,11 +62,11 @@ pub(crate) fn difference<R: Real + Named>(
             ("loads", model.loads.len()),
             ("points on lines", model.lines.len()),
             ("inputs", model.inputs.len()),
-            ("knots of tables", model.knots.len()),
+            ("table knots", model.knots.len()),
             ("clearances", model.clearances.len()),
-            ("revolutes of bushings", model.revolutes.len()),
-            ("universal joints of bushings", model.universals.len()),
-            ("sources of inputs", model.sources.len()),
+            ("bushing revolutes", model.revolutes.len()),
+            ("bushing universal joints", model.universals.len()),
+            ("input sources", model.sources.len()),
             ("interactions", model.laws.bodies().count()),
         ]
     };
@@ -83,9 +83,9 @@ pub(crate) fn difference<R: Real + Named>(
         ("torsion spring", row(&first.torsions, &other.torsions, |a, b| spring(a) == spring(b))),
         ("load", row(&first.loads, &other.loads, |a, b| load(a) == load(b))),
         ("input", row(&first.inputs, &other.inputs, |a, b| input(a) == input(b))),
-        ("knot of a table", row(&first.knots, &other.knots, |a, b| a.time == b.time)),
+        ("table knot", row(&first.knots, &other.knots, |a, b| a.time == b.time)),
         ("interaction", row(&ends(first), &ends(other), PartialEq::eq)),
-        ("source of an input", row(&first.sources, &other.sources, |a, b| source(a) == source(b))),
+        ("input source", row(&first.sources, &other.sources, |a, b| source(a) == source(b))),
     ];
     parts.into_iter().find_map(|(part, row)| row.map(|row| Difference::Part { part, row }))
 }
@@ -99,7 +99,7 @@ fn spring<R: Real>(spring: &TorsionSpring<R>) -> ([BodyIndex; 2], Option<usize>)
     ([spring.a, spring.b], spring.damper.row())
 }
 
-/// What lanes share of a source: its input, its knots, its period and phase or what it reads.
+/// The parts of a source that lanes share: its input, knots, period and phase, or sensor.
 fn source<R: Real + Named>(source: &Source<Float<R>>) -> ([u16; 5], [f64; 2]) {
     let (kind, times) = match source.law {
         SourceLaw::Sine { period, phase, .. } => ([0, 0], [period, phase]),

@@ -1,10 +1,10 @@
-//! A batch: as many instances as a register has lanes, stepped as one.
+//! A batch: as many instances as a register has lanes, stepped together.
 //!
-//! `(members, steps) => members`. Steps are made in blocks, without the guards of a step. What a lane
-//! does in a block is doubted where it turned too far in a step or is not finite at the end: its own
-//! plant then does the block anew, one instance by itself, and tells what failed where. A lane that
-//! never had an instance runs the twin of another; one whose instance has failed goes on without meaning.
-//! Laws are compiled for one instance alone: instances of a model with laws go one by one.
+//! `(members, steps) => members`. Steps are executed in blocks, without the checks of a single step. A lane is suspect
+//! if it rotated too far in a step or is not finite at the end of a block: its instance then repeats the block on a
+//! scalar plant, which reports what failed and where. An unused lane runs a copy of another instance; a lane whose
+//! instance has failed continues with meaningless values. Laws are compiled for scalar instances only: instances of a
+//! model with laws are stepped one by one.
 
 use dbd_kernel::geometry::Named;
 use dbd_kernel::{Plant, Real, State};
@@ -14,7 +14,7 @@ use crate::in_lanes::InLanes;
 use crate::lanes::Lanes;
 use crate::register::{Register, Work};
 
-/// Steps between two looks at a batch.
+/// Steps between two checks of a batch.
 const BLOCK: u64 = 64;
 
 /// The plant of one instance.
@@ -22,28 +22,28 @@ pub type PlantOf<R, S> = Plant<Box<ModelOf<R>>, S>;
 /// The plant of a register's lanes.
 type LanesPlant<V, S> = Plant<Box<LanesModel<V>>, S>;
 
-/// A batch of whatever register.
+/// A batch with any register type.
 pub(crate) trait Batch<R, S>: Send
 where
     R: Real + Named,
     S: InLanes,
 {
-    /// `steps` steps of all instances that run.
+    /// `steps` steps of all running instances.
     fn advance(&mut self, steps: u64);
-    /// An instance, brought to the present.
+    /// An instance, with its present state.
     fn member(&mut self, member: usize) -> &PlantOf<R, S>;
-    /// An instance, to be changed.
+    /// An instance for modification.
     fn member_mut(&mut self, member: usize) -> &mut PlantOf<R, S>;
-    /// The force evaluations of an instance that has gone in its lane from t = 0 on; `None` of others.
+    /// The force evaluations of an instance that has run in its lane since t = 0; `None` for others.
     fn evaluations(&self, member: usize) -> Option<u64>;
 }
 
-/// Where the present state of the instances is.
+/// Location of the present state of the instances.
 #[derive(Clone, Copy, PartialEq)]
 enum Present {
-    /// In their own plants alone.
+    /// Only in their scalar plants.
     Members,
-    /// In the lanes alone.
+    /// Only in the lanes.
     Lanes,
     /// In both.
     Both,
@@ -52,27 +52,27 @@ enum Present {
 /// Instances in the lanes of `V`.
 pub(crate) struct Members<V: Register, S: InLanes> {
     plants: Vec<PlantOf<V::Number, S>>,
-    /// The member in each lane; the first lane of a member is its own.
+    /// The member in each lane; the first lane of a member is the authoritative one.
     seats: Vec<usize>,
-    /// The lanes' plant, once any member runs.
+    /// The plant of the lanes, once any member runs.
     lanes: Option<LanesPlant<V, S>>,
     present: Present,
-    /// The lanes whose instances run, lane 0 lowest; those of twins do not count.
+    /// The lanes with running instances, lane 0 lowest; copies are excluded.
     running: u32,
-    /// Whether the lanes have gone from t = 0 on.
+    /// Whether the lanes have run since t = 0.
     from_start: bool,
 }
 
 impl<V: Register, S: InLanes> Members<V, S> {
-    /// A batch of at most as many plants as the register has lanes, of one structure, scheme and step.
+    /// A batch of at most as many plants as the register has lanes, with the same structure, scheme and step.
     pub(crate) fn new(plants: Vec<PlantOf<V::Number, S>>) -> Self {
         let seats = Vec::new();
         let (lanes, present) = (None, Present::Members);
         Self { plants, seats, lanes, present, running: 0, from_start: false }
     }
 
-    /// Brings the members' states into the lanes; `None` where none of them runs. All lanes are at one
-    /// step: that of the first that runs.
+    /// Loads the members' states into the lanes; `None` if none of them runs. All lanes are at the step of the first
+    /// running member.
     fn seat(&mut self) -> Option<()> {
         if self.present == Present::Members {
             let all = 0..self.plants.len();
@@ -101,7 +101,7 @@ impl<V: Register, S: InLanes> Members<V, S> {
         Some(())
     }
 
-    /// Brings the lanes' states into the members' plants.
+    /// Stores the lanes' states in the members' plants.
     fn leave(&mut self) {
         if let (Present::Lanes, Some(lanes)) = (self.present, &self.lanes) {
             for lane in own_lanes(&self.seats).filter(|lane| self.running >> lane & 1 != 0) {
@@ -112,7 +112,7 @@ impl<V: Register, S: InLanes> Members<V, S> {
         }
     }
 
-    /// A block of steps; whether any member still runs.
+    /// A block of steps; returns whether any member still runs.
     fn block(&mut self, steps: u64) -> bool {
         if self.plants.iter().any(|plant| !plant.model().laws.is_empty()) {
             let mut running = false;
@@ -132,7 +132,7 @@ impl<V: Register, S: InLanes> Members<V, S> {
             || near_an_end(&before, steps, self.running);
         let doubted = if far { u32::MAX } else { V::enter(Block { lanes, steps }) };
         self.present = Present::Lanes;
-        // Those at another step, and those that failed, which stay as they are.
+        // Members at another step, and failed ones, which remain unchanged.
         for member in apart {
             let _ = self.plants[member].advance(steps);
         }
@@ -153,7 +153,7 @@ impl<V: Register, S: InLanes> Members<V, S> {
                 self.present = Present::Members;
             }
         }
-        // Those that were at another step may still run: they take the lanes.
+        // Members that were at another step may still run: they are loaded into the lanes.
         if self.running == 0 {
             self.present = Present::Members;
         }
@@ -161,12 +161,12 @@ impl<V: Register, S: InLanes> Members<V, S> {
     }
 }
 
-/// The lanes that stand for their members.
+/// The authoritative lanes of the members.
 fn own_lanes(seats: &[usize]) -> impl Iterator<Item = usize> {
     (0..seats.len()).filter(|&lane| !seats[..lane].contains(&seats[lane]))
 }
 
-/// Whether any turn count of a running lane may come to its end within so many steps.
+/// Whether any revolution count of a running lane may overflow within the given number of steps.
 fn near_an_end<V: Register>(state: &State<LanesModel<V>>, steps: u64, running: u32) -> bool {
     let most = u64::from(u32::MAX / 2) - 1 - steps;
     let counts = state.turns.iter().enumerate();
@@ -211,7 +211,7 @@ struct Block<'b, V: Register, S: InLanes> {
 }
 
 impl<V: Register, S: InLanes> Work for Block<'_, V, S> {
-    /// The lanes that are in doubt.
+    /// The suspect lanes.
     type Outcome = u32;
 
     #[inline(always)]
@@ -221,7 +221,7 @@ impl<V: Register, S: InLanes> Work for Block<'_, V, S> {
         let one = Lanes::<V>::ONE;
         let mut calm = Lanes::<V>::truth(true);
         for _ in 0..steps {
-            // No lane fails by itself: what it cannot do makes it no number.
+            // Lanes do not report failures: an invalid operation yields NaN.
             let _ = lanes.step_unguarded();
             for body in &lanes.state().bodies {
                 let turn = body.angular_velocity * h;

@@ -1,7 +1,7 @@
 //! An ensemble: many instances of one scene, each with its own parameters, state and inputs.
 //!
-//! `(models, scheme, h) => ensemble; steps => states`. Instances lie in batches, one per lane; batches
-//! lie on threads. Neither changes a bit of any instance.
+//! `(models, scheme, h) => ensemble; steps => states`. Instances are grouped in batches, one per lane, and batches are
+//! distributed over threads. Neither changes a bit of any instance.
 
 use std::num::NonZeroUsize;
 use std::thread;
@@ -18,38 +18,38 @@ use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
 use crate::number::Number;
 
-/// A step of lanes is inlined whole. Where it is not optimised, each of its values has a place of its own:
-/// megabytes of them, more than a main thread may have.
+/// A step of lanes is fully inlined. Without optimisation each of its values has its own stack slot: megabytes, more
+/// than a main thread may have.
 const OPTIMISED: bool = !cfg!(debug_assertions);
 
-/// What a thread has for its stack; only what is used is taken from the machine.
+/// Stack size of a thread; only the used part is allocated.
 const STACK: usize = if OPTIMISED { 2 << 20 } else { 64 << 20 };
 
-/// Why there is no ensemble of some models.
+/// Why an ensemble cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum EnsembleError {
-    /// The instances are not of one structure.
-    #[error("instance {instance} is of another structure: {difference}")]
+    /// The instances differ in structure.
+    #[error("instance {instance} has another structure: {difference}")]
     #[diagnostic(help(
-        "instances go in lockstep: they may differ in numbers and states, not in bodies, joints, \
-         loads, inputs or times; give models of each structure an ensemble of their own"
+        "instances advance in lockstep: they may differ in numbers and states, not in bodies, joints, \
+         loads, inputs or times; use a separate ensemble for each structure"
     ))]
     Structure {
         /// The first such instance.
         instance: usize,
-        /// In what it differs from the first.
+        /// Its difference from the first.
         difference: Difference,
     },
-    /// The step is none in this precision.
-    #[error("a step of {step} s is none in this precision")]
-    #[diagnostic(help("a step is positive, finite and no less than the precision can hold"))]
+    /// The step is not representable in this precision.
+    #[error("step {step} s is not representable in this precision")]
+    #[diagnostic(help("give a positive, finite step that the precision can represent"))]
     Step {
         /// \[s\] the step.
         step: f64,
     },
-    /// The machine lacks the instruction set that was asked for.
-    #[error("this machine has no {}", set.name())]
-    #[diagnostic(help("the best it has is {}", InstructionSet::best().name()))]
+    /// The machine lacks the requested instruction set.
+    #[error("this machine does not support {}", set.name())]
+    #[diagnostic(help("the best supported set is {}", InstructionSet::best().name()))]
     Instructions {
         /// The instruction set.
         set: InstructionSet,
@@ -58,8 +58,8 @@ pub enum EnsembleError {
 
 /// Many instances of one scene, stepped in lockstep.
 ///
-/// Each instance has the bits of a [`Plant`] of its own, whatever the instruction set, the number of
-/// threads and its place among the others, up to and including a failure, which stops it alone.
+/// Each instance has the bits of a separate [`Plant`], regardless of the instruction set, the number of threads and its
+/// index, up to and including a failure, which stops only that instance.
 pub struct Ensemble<R: Number, S: InLanes> {
     batches: Vec<Box<dyn Batch<R, S>>>,
     set: InstructionSet,
@@ -71,7 +71,7 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
     /// of this machine.
     ///
     /// # Errors
-    /// [`EnsembleError`] where the models are not of one structure, or the step is none.
+    /// [`EnsembleError`] if the models differ in structure, or the step is not representable.
     pub fn new(
         models: Vec<SceneModel<Float<R>>>,
         scheme: S,
@@ -83,7 +83,7 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
     /// [`Self::new`] on a chosen instruction set.
     ///
     /// # Errors
-    /// As [`Self::new`], or where the machine lacks the instruction set.
+    /// As [`Self::new`], or if the machine lacks the instruction set.
     pub fn with_instructions(
         models: Vec<SceneModel<Float<R>>>,
         scheme: S,
@@ -115,13 +115,13 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
         Ok(Self { batches, set, count })
     }
 
-    /// How many instances there are.
+    /// Number of instances.
     #[must_use]
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Whether there is none.
+    /// Whether it is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.count == 0
@@ -133,25 +133,25 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
         self.set
     }
 
-    /// How many instances go in lockstep.
+    /// Number of instances in lockstep.
     #[must_use]
     pub fn lanes(&self) -> usize {
         R::lanes(self.set)
     }
 
-    /// `steps` steps of every instance with held inputs, or as many as succeed, on this thread (without
-    /// optimisation on another one, which has the stack for it).
+    /// `steps` steps of every instance with held inputs, or as many as succeed, on this thread (without optimisation on
+    /// another one with a larger stack).
     ///
     /// # Panics
-    /// Without optimisation, where the system has no thread.
+    /// Without optimisation, if no thread can be started.
     pub fn advance(&mut self, steps: u64) {
         self.advance_on(NonZeroUsize::MIN, steps);
     }
 
-    /// [`Self::advance`] on so many threads, which share the batches evenly.
+    /// [`Self::advance`] on the given number of threads, which share the batches evenly.
     ///
     /// # Panics
-    /// Where the system has no further thread.
+    /// If no further thread can be started.
     pub fn advance_on(&mut self, threads: NonZeroUsize, steps: u64) {
         let share = self.batches.len().div_ceil(threads.get()).max(1);
         let mut shares = self.batches.chunks_mut(share);
@@ -166,11 +166,11 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
         });
     }
 
-    /// An instance as a plant of its own: state, status, time, hash, read-outs. It counts none of the
-    /// evaluations of lanes.
+    /// An instance as a separate plant: state, status, time, hash, read-outs. It does not count the evaluations of
+    /// lanes.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     pub fn plant(&mut self, instance: usize) -> &PlantOf<R, S> {
         let lanes = self.lanes();
         self.batches[instance / lanes].member(instance % lanes)
@@ -179,7 +179,7 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
     /// The status of an instance.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     pub fn status(&mut self, instance: usize) -> Status {
         self.plant(instance).status()
     }
@@ -187,30 +187,30 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
     /// The state of an instance.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     pub fn state(&mut self, instance: usize) -> &State<SceneModel<Float<R>>> {
         self.plant(instance).state()
     }
 
-    /// The force evaluations that an instance alone would have made, where it has gone in its lane from t = 0
-    /// on; `None` where it was changed on the way, or went by itself.
+    /// The force evaluations that an instance alone would have made, if it has run in its lane since t = 0; `None` if
+    /// it was changed meanwhile, or was stepped alone.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     #[must_use]
     pub fn evaluations(&self, instance: usize) -> Option<u64> {
         let lanes = self.lanes();
         self.batches[instance / lanes].evaluations(instance % lanes)
     }
 
-    /// Lets an instance go on from `state`, a failure forgotten. Instances of a batch that are at
-    /// another step than the first of it go by themselves, and slower.
+    /// Sets the state of an instance and clears a failure. Instances at another step than the first of their batch are
+    /// stepped alone, which is slower.
     ///
     /// # Errors
-    /// As [`Plant::set_state`]; nothing is changed then.
+    /// As [`Plant::set_state`]; nothing is changed.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     pub fn set_state(
         &mut self,
         instance: usize,
@@ -219,13 +219,13 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
         self.plant_mut(instance).set_state(state)
     }
 
-    /// Sets an input of an instance; it is held until set again.
+    /// Sets an input of an instance, which keeps its value until set again.
     ///
     /// # Errors
-    /// As [`Plant::set_input`]; nothing is changed then.
+    /// As [`Plant::set_input`]; nothing is changed.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     pub fn set_input(
         &mut self,
         instance: usize,
@@ -235,10 +235,10 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
         self.plant_mut(instance).set_input(input, value)
     }
 
-    /// An instance to be changed: to be reset, cleared, given signals or the state of a snapshot.
+    /// An instance for modification: to reset or clear it, or to set signals or the state of a snapshot.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     pub fn plant_mut(&mut self, instance: usize) -> &mut PlantOf<R, S> {
         let lanes = self.lanes();
         self.batches[instance / lanes].member_mut(instance % lanes)

@@ -1,7 +1,7 @@
-//! From models and states of one instance each to those of lanes, and back.
+//! Conversion of models and states between single instances and lanes.
 //!
-//! `models => model of lanes; states => state of lanes; (state of lanes, lane) => state`. All models
-//! have one structure, see [`crate::alike`].
+//! `models => model of lanes; states => state of lanes; (state of lanes, lane) => state`. All models have the same
+//! structure, see [`crate::alike`].
 
 use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
@@ -21,7 +21,7 @@ pub(crate) type ModelOf<R> = SceneModel<Float<R>>;
 /// The model of a register's lanes.
 pub(crate) type LanesModel<V> = SceneModel<Float<Lanes<V>>>;
 
-/// A number, a vector and a quaternion of each lane, as `of` finds them by the lane.
+/// A number, a vector and a quaternion of each lane, from `of(lane)`.
 fn number<V: Register>(of: impl Fn(usize) -> V::Number) -> Lanes<V> {
     Lanes::new(of)
 }
@@ -48,7 +48,7 @@ fn body_state<V: Register>(
 /// The model whose lane i is `models[i]`.
 pub(crate) fn model<V: Register>(models: &[&ModelOf<V::Number>]) -> LanesModel<V> {
     let first = models[0];
-    /// A part of each lane's model at a time.
+    /// Iterates over a part of all lanes' models together.
     macro_rules! each {
         ($parts:ident, |$row:ident| $new:expr) => {
             (0..first.$parts.len()).map(|$row| $new).collect()
@@ -70,7 +70,7 @@ pub(crate) fn model<V: Register>(models: &[&ModelOf<V::Number>]) -> LanesModel<V
         gravity: each!(gravity, |row| vector(|i| models[i].gravity[row])),
         groups: first.groups.clone(),
         plan: first.plan.clone(),
-        // No lane has laws: their instances go one by one.
+        // Lanes have no laws: such instances are stepped one by one.
         laws: Default::default(),
         points: each!(points, |row| vector(|i| models[i].points[row])),
         tsdas: each!(tsdas, |row| {
@@ -188,7 +188,7 @@ fn source<'m, V: Register>(
 fn input<'m, V: Register>(
     of: impl Fn(usize) -> &'m Input<Float<V::Number>>,
 ) -> Input<Float<Lanes<V>>> {
-    // The vectors of its kind: point and direction, axis, or nothing.
+    // The vectors of its kind: point and direction, axis, or none.
     let vectors = |i: usize| match of(i).kind {
         InputKind::Force { point, direction, .. } => [point, direction],
         InputKind::Torque { axis, .. } => [axis; 2],
@@ -212,7 +212,7 @@ fn input<'m, V: Register>(
     Input { kind, value: number(|i| of(i).value), knot, knots, range }
 }
 
-/// The state whose lane i is `states[i]`; all are at one step.
+/// The state whose lane i is `states[i]`; all are at the same step.
 pub(crate) fn state<V: Register>(states: &[&State<ModelOf<V::Number>>]) -> State<LanesModel<V>> {
     let first = states[0];
     State {

@@ -1,12 +1,12 @@
-//! Which schemes step lanes.
+//! Schemes that support lanes.
 //!
-//! `scheme => whether lanes can`.
+//! `scheme => whether lanes are supported`.
 
 use dbd_kernel::Scheme;
 use dbd_kernel::keep::Nothing;
 
-/// A scheme that lanes can step: all but those that damp joint by joint, whose levers are searched for
-/// in each instance by itself.
+/// A scheme that supports lanes: all except those with joint-wise damping, whose damping modes are computed per
+/// instance.
 pub trait InLanes: Scheme<Keeps = Nothing> {}
 
 impl<S: Scheme<Keeps = Nothing>> InLanes for S {}

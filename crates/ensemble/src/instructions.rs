@@ -1,11 +1,11 @@
-//! Which instructions a machine has.
+//! Instruction sets of a machine.
 //!
 //! `machine => instruction set`.
 
-/// An instruction set, and with it how many instances go in lockstep.
+/// An instruction set, which determines the number of instances in lockstep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {
-    /// What every machine of its kind has: 2 instances in double precision, 4 in single.
+    /// The baseline of every machine of its architecture: 2 instances in double precision, 4 in single.
     Baseline,
     /// AVX2 of x86-64: 4 and 8.
     Avx2,
@@ -17,7 +17,7 @@ impl InstructionSet {
     /// All of them, the fewest lanes first.
     pub const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
 
-    /// Whether this machine has it.
+    /// Whether this machine supports it.
     #[must_use]
     pub fn is_there(self) -> bool {
         match self {
@@ -34,13 +34,13 @@ impl InstructionSet {
         }
     }
 
-    /// The one with the most lanes that this machine has.
+    /// The one with the most lanes that this machine supports.
     #[must_use]
     pub fn best() -> Self {
         Self::ALL.into_iter().rev().find(|set| set.is_there()).unwrap_or(Self::Baseline)
     }
 
-    /// The name users give: `baseline`, `avx2`, `avx512`.
+    /// The user-visible name: `baseline`, `avx2`, `avx512`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

@@ -1,7 +1,7 @@
-//! A number of several lanes: what the kernel's laws and schemes take for one.
+//! A number of several lanes, which the kernel's laws and schemes use as one number.
 //!
-//! `(lanes, lanes) => lanes`. What a step decides by a number becomes a selection, see
-//! [`dbd_kernel::Real`]. Where no lane is meant, as in a conversion to `f64`, it is the first.
+//! `(lanes, lanes) => lanes`. Decisions in a step become selections, see [`dbd_kernel::Real`]. Operations without a
+//! lane, such as a conversion to `f64`, use the first.
 
 use std::cmp::Ordering;
 use std::fmt::{Debug, Formatter};
@@ -61,7 +61,7 @@ impl<V: Register> PartialEq for Lanes<V> {
     }
 }
 
-/// Ordered where all lanes are ordered alike.
+/// Ordered if all lanes have the same order.
 impl<V: Register> PartialOrd for Lanes<V> {
     #[inline(always)]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {

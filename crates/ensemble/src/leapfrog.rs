@@ -1,4 +1,4 @@
-//! Leapfrog's ensembles and how fast they are, compiled here once for all callers.
+//! Leapfrog's ensembles and their speed measurement, compiled here once for all callers.
 //!
 //! `(models, h) => ensemble of either precision; (model, h, instruction set, threads) => steps per second`, see
 //! [`crate::pace()`].
@@ -14,8 +14,8 @@ use crate::instructions::InstructionSet;
 use crate::number::Number;
 use crate::pace::{Course, Pace, pace};
 
-/// An ensemble whose precision is known when the program runs. What it shows is in double precision, the
-/// stored words widened exactly.
+/// An ensemble with the precision chosen at run time. Its outputs are in double precision, the stored words widened
+/// exactly.
 pub trait AnyEnsemble: Send {
     /// `steps` steps of every instance, or as many as succeed, on this thread.
     fn advance(&mut self, steps: u64);
@@ -23,19 +23,19 @@ pub trait AnyEnsemble: Send {
     /// The status of an instance.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     fn status(&mut self, instance: usize) -> Status;
 
     /// The state of an instance.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     fn state(&mut self, instance: usize) -> State<SceneModel<F64>>;
 
     /// The hash of an instance's state, as [`dbd_kernel::Plant::hash`].
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     fn hash(&mut self, instance: usize) -> u64;
 
     /// As [`Ensemble::set_input`].
@@ -44,7 +44,7 @@ pub trait AnyEnsemble: Send {
     /// As there.
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     fn set_input(
         &mut self,
         instance: usize,
@@ -52,16 +52,16 @@ pub trait AnyEnsemble: Send {
         value: f64,
     ) -> Result<(), InputError>;
 
-    /// Sets an instance back to its initial state, as [`dbd_kernel::Plant::reset`].
+    /// Resets an instance to its initial state, as [`dbd_kernel::Plant::reset`].
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     fn reset(&mut self, instance: usize);
 
     /// As [`Ensemble::evaluations`].
     ///
     /// # Panics
-    /// Where there is no such instance.
+    /// If there is no such instance.
     fn evaluations(&self, instance: usize) -> Option<u64>;
 }
 
@@ -112,7 +112,7 @@ pub fn ensemble_in_f64(
     Ok(Box::new(Ensemble::with_instructions(models, Leapfrog, step_size, set)?))
 }
 
-/// Instances that are rounded to single precision.
+/// Instances rounded to single precision.
 ///
 /// # Errors
 /// As [`Ensemble::with_instructions`].
@@ -125,13 +125,13 @@ pub fn ensemble_in_f32(
     Ok(Box::new(Ensemble::with_instructions(models, Leapfrog, step_size, set)?))
 }
 
-/// How many instances in double precision go in lockstep on this machine; twice as many do in single.
+/// Number of instances in double precision in lockstep on this machine; twice as many in single.
 #[must_use]
 pub fn lanes_in_f64() -> usize {
     f64::lanes(InstructionSet::best())
 }
 
-/// Of a model in double precision.
+/// The speed for a model in double precision.
 ///
 /// # Errors
 /// As [`crate::pace()`].
@@ -143,7 +143,7 @@ pub fn pace_in_f64(
     pace(model, Leapfrog, step_size, course)
 }
 
-/// Of a model that is rounded to single precision.
+/// The speed for a model rounded to single precision.
 ///
 /// # Errors
 /// As [`crate::pace()`].

@@ -4,11 +4,11 @@
 //!
 //! Each uses only those before it:
 //!
-//! - `register`, `lanes`: one register of an instruction set, and the number that the kernel takes.
-//! - `alike`, `gather`: models of one structure become the model of lanes, states likewise and back.
-//! - `in_lanes`, `batch`: which schemes lanes step; as many instances as a register has lanes, stepped as one.
-//! - `instructions`, `number`: what a machine has, and which batches a number has there.
-//! - `ensemble`, `pace`, `leapfrog`: many instances, how fast they are, and leapfrog's compiled once.
+//! - `register`, `lanes`: one register of an instruction set, and the number type for the kernel.
+//! - `alike`, `gather`: structural check; conversion of models and states between instances and lanes.
+//! - `in_lanes`, `batch`: schemes that support lanes; as many instances as a register has lanes, stepped together.
+//! - `instructions`, `number`: instruction sets of a machine, and the batches of each precision.
+//! - `ensemble`, `pace`, `leapfrog`: many instances, their speed, and precompiled ensembles for leapfrog.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod alike;

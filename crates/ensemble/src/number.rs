@@ -1,4 +1,4 @@
-//! The numbers that lanes are made of, and the batches of each.
+//! The element types of lanes, and the batches of each.
 //!
 //! `(instruction set, plants) => batch`.
 
@@ -12,14 +12,14 @@ use crate::register;
 
 /// A number that has registers: `f64` and `f32`.
 pub trait Number: Real + Named + sealed::Batches {
-    /// How many of them go in lockstep.
+    /// Number of instances in lockstep.
     fn lanes(set: InstructionSet) -> usize;
 }
 
 pub(crate) mod sealed {
     use super::{Batch, InLanes, InstructionSet, PlantOf};
 
-    /// What only this crate does with a number.
+    /// Crate-internal operations of a number.
     pub trait Batches: super::Real + super::Named {
         /// A batch of plants.
         #[allow(private_interfaces)]

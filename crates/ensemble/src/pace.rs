@@ -1,7 +1,7 @@
-//! How fast an ensemble is beside its instances one after the other.
+//! Speed of an ensemble compared with its instances one after the other.
 //!
-//! `(model, scheme, h, instruction set, threads) => steps per second of each`. All in one process, in
-//! turn, from the same state.
+//! `(model, scheme, h, instruction set, threads) => steps per second of each`. All in one process, alternating, from
+//! the same state.
 
 use std::num::NonZeroUsize;
 use std::thread;
@@ -17,17 +17,17 @@ use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
 use crate::number::Number;
 
-/// What is measured.
+/// Measurement settings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Course {
     /// The instruction set.
     pub set: InstructionSet,
-    /// How many threads step the ensemble; those that step alone have one. Threads start anew in each round: a round
-    /// is to take much longer than that.
+    /// Number of threads that step the ensemble. Threads are started in each round, so a round should take much longer
+    /// than that.
     pub threads: NonZeroUsize,
     /// Steps of each instance in a round.
     pub steps: u64,
-    /// Rounds, of which each times all.
+    /// Rounds, each of which times all variants.
     pub rounds: NonZeroUsize,
 }
 
@@ -36,37 +36,36 @@ pub struct Course {
 pub struct Pace {
     /// Instances, a full batch for each thread.
     pub instances: usize,
-    /// Of the ensemble, round by round.
+    /// The ensemble, per round.
     pub together: Vec<f64>,
-    /// Of the same ensemble on one thread, round by round; empty where it has no more.
+    /// The same ensemble on one thread, per round; empty if it has only one.
     pub on_one_thread: Vec<f64>,
-    /// Of its instances one after the other on one thread, round by round.
+    /// Its instances one after the other on one thread, per round.
     pub alone: Vec<f64>,
-    /// Of its instances, each by itself, on as many threads, round by round; empty where it has no more.
+    /// Its separate instances on as many threads, per round; empty if it has only one.
     pub alone_on_threads: Vec<f64>,
 }
 
 impl Pace {
-    /// How many times faster the ensemble is: the median of the rounds' ratios.
+    /// Speed-up of the ensemble: the median of the rounds' ratios.
     #[must_use]
     pub fn ratio(&self) -> f64 {
         median(&ratios(&self.together, &self.alone)).unwrap_or(f64::NAN)
     }
 
-    /// How many times faster its threads are than one of them: the median of the rounds' ratios; `None` where it
-    /// has one.
+    /// Speed-up of its threads over one: the median of the rounds' ratios; `None` with one thread.
     #[must_use]
     pub fn over_one_thread(&self) -> Option<f64> {
         median(&ratios(&self.together, &self.on_one_thread))
     }
 
-    /// The same of instances that share nothing, each by itself: what the machine's cores have to give.
+    /// The same for separate instances, which share nothing: the limit of the machine's cores.
     #[must_use]
     pub fn alone_over_one_thread(&self) -> Option<f64> {
         median(&ratios(&self.alone_on_threads, &self.alone))
     }
 
-    /// How far the middle half of the rounds' ratios lies apart, half of it over the median.
+    /// Half the interquartile range of the rounds' ratios over their median.
     #[must_use]
     pub fn spread(&self) -> f64 {
         let ratios = ratios(&self.together, &self.alone);
@@ -74,20 +73,20 @@ impl Pace {
         at(1).zip(at(3)).map_or(f64::NAN, |(low, high)| 0.5 * (high - low) / self.ratio())
     }
 
-    /// The ratio of the fastest rounds of each: what other programs took least from.
+    /// The ratio of the fastest rounds of each, which other programs disturbed least.
     #[must_use]
     pub fn best_ratio(&self) -> f64 {
         let most = |rates: &[f64]| rates.iter().copied().fold(f64::NAN, f64::max);
         most(&self.together) / most(&self.alone)
     }
 
-    /// No round yet.
+    /// Without rounds.
     fn of(instances: usize) -> Self {
         let [together, on_one_thread, alone, alone_on_threads] = [const { Vec::new() }; 4];
         Self { instances, together, on_one_thread, alone, alone_on_threads }
     }
 
-    /// Takes in a round of `done` steps.
+    /// Adds a round of `done` steps.
     fn push(&mut self, done: f64, times: &Times) {
         self.together.push(done / times.together);
         self.on_one_thread.extend(times.on_one_thread.map(|time| done / time));
@@ -96,7 +95,7 @@ impl Pace {
     }
 }
 
-/// \[s\] what a round took.
+/// \[s\] duration of a round.
 struct Times {
     together: f64,
     on_one_thread: Option<f64>,
@@ -104,7 +103,7 @@ struct Times {
     alone_on_threads: Option<f64>,
 }
 
-/// \[s\] what some work takes.
+/// \[s\] duration of some work.
 fn seconds(work: impl FnOnce()) -> f64 {
     let start = Instant::now();
     work();
@@ -118,7 +117,7 @@ fn each<R: Number, S: InLanes>(plants: &mut [PlantOf<R, S>], steps: u64) {
     }
 }
 
-/// The same on several threads, this one among them.
+/// The same on several threads, including this one.
 fn each_on<R: Number, S: InLanes + Send>(
     plants: &mut [PlantOf<R, S>],
     threads: NonZeroUsize,
@@ -132,7 +131,7 @@ fn each_on<R: Number, S: InLanes + Send>(
     });
 }
 
-/// The rounds' ratios, the least first.
+/// The rounds' ratios in ascending order.
 fn ratios(rates: &[f64], of: &[f64]) -> Vec<f64> {
     let mut ratios: Vec<f64> = rates.iter().zip(of).map(|(rate, of)| rate / of).collect();
     ratios.sort_by(f64::total_cmp);
@@ -143,10 +142,10 @@ fn median(sorted: &[f64]) -> Option<f64> {
     sorted.get(sorted.len() / 2).copied()
 }
 
-/// Times an ensemble of alike instances of `model` against the same plants by themselves.
+/// Times an ensemble of identical instances of `model` against separate plants.
 ///
 /// # Errors
-/// [`EnsembleError`] where the machine lacks the instruction set, or the step is none.
+/// [`EnsembleError`] if the machine lacks the instruction set, or the step is not representable.
 pub fn pace<R: Number, S: InLanes + Send + 'static>(
     model: &SceneModel<Float<R>>,
     scheme: S,
@@ -163,11 +162,11 @@ pub fn pace<R: Number, S: InLanes + Send + 'static>(
     let mut on_threads = ensemble()?;
     let mut on_one = if threads.get() > 1 { Some(ensemble()?) } else { None };
     let mut pace = Pace::of(instances);
-    // The first round brings code and data in.
+    // The first round warms the caches.
     for round in 0..=rounds.get() {
         for ensemble in on_one.iter_mut().chain([&mut on_threads]) {
             (0..instances).for_each(|instance| ensemble.plant_mut(instance).reset());
-            // Lanes are filled before their first step.
+            // Lanes are filled before the first step.
             ensemble.advance(1);
         }
         for plant in &mut plants {

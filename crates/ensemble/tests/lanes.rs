@@ -400,7 +400,7 @@ body = "b"
         *period *= 2.0;
     }
     let found = ensemble_in_f64(models, 1e-3, InstructionSet::Baseline).err();
-    let difference = Difference::Part { part: "source of an input", row: 0 };
+    let difference = Difference::Part { part: "input source", row: 0 };
     assert_eq!(found, Some(EnsembleError::Structure { instance: 1, difference }));
 }
 

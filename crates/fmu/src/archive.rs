@@ -1,4 +1,4 @@
-//! The FMU: an archive of the model description, the library, the resources and a page about them.
+//! The FMU: an archive of the model description, the libraries, the resources and a documentation page.
 //!
 //! `(resource, version, libraries) => bytes`. The same input gives the same bytes.
 
@@ -16,7 +16,7 @@ use crate::resource::Resource;
 use crate::token::token;
 use crate::xml::{Fmi, IDENTIFIER, model_description};
 
-/// The library's file as a build leaves it.
+/// The name of the library file of a build.
 pub const LIBRARY: &str = if cfg!(windows) {
     "dbd_fmu.dll"
 } else if cfg!(target_os = "macos") {
@@ -25,32 +25,32 @@ pub const LIBRARY: &str = if cfg!(windows) {
     "libdbd_fmu.so"
 };
 
-/// A library that goes into an FMU.
+/// A library for an FMU.
 #[derive(Clone, Debug)]
 pub struct Library {
     bytes: Vec<u8>,
-    /// Its folder in FMI 2 and 3, and its ending.
+    /// Its folder in FMI 2 and 3, and its file extension.
     place: (&'static str, &'static str, &'static str),
 }
 
-/// Why there is no FMU.
+/// Why an FMU cannot be made.
 #[derive(Debug, Error, Diagnostic)]
 pub enum ArchiveError {
     /// The scene or its settings are refused.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Instance(#[from] InstanceError),
-    /// A file is no library of this version.
-    #[error("{file} is no library of dbd-fmu {}: {reason}", env!("CARGO_PKG_VERSION"))]
-    #[diagnostic(help("cargo build --release -p dbd-fmu"))]
+    /// A file is not a library of this version.
+    #[error("{file} is not a library of dbd-fmu {}: {reason}", env!("CARGO_PKG_VERSION"))]
+    #[diagnostic(help("build it with `cargo build --release -p dbd-fmu`"))]
     Library {
         /// The file.
         file: String,
-        /// What is wrong.
+        /// The problem.
         reason: &'static str,
     },
     /// The archive cannot be written.
-    #[error("cannot make the archive: {0}")]
+    #[error("cannot create the archive: {0}")]
     Archive(#[from] zip::result::ZipError),
 }
 
@@ -60,7 +60,7 @@ impl From<std::io::Error> for ArchiveError {
     }
 }
 
-/// What every library of this version holds.
+/// Text contained in every library of this version.
 #[used]
 static MARK: [u8; MARKED.len()] = {
     let (mut mark, mut at) = ([0; MARKED.len()], 0);
@@ -73,7 +73,7 @@ static MARK: [u8; MARKED.len()] = {
 const MARKED: &str = concat!("dbd-fmu reads resources of ", env!("CARGO_PKG_VERSION"));
 
 impl Library {
-    /// A library from its bytes; `file` is what messages call it.
+    /// A library from its bytes; messages refer to it as `file`.
     ///
     /// # Errors
     /// [`ArchiveError::Library`].
@@ -88,25 +88,25 @@ impl Library {
             Some([b'M', b'Z', ..]) => ("win64", "x86_64-windows", "dll"),
             Some(b"\xcf\xfa\xed\xfe") if machine(4) == 7 => ("darwin64", "x86_64-darwin", "dylib"),
             Some(b"\xcf\xfa\xed\xfe") => ("aarch64-darwin", "aarch64-darwin", "dylib"),
-            _ => return refuse("it is none for Linux, Windows or macOS on 64 bits"),
+            _ => return refuse("not a 64-bit library for Linux, Windows or macOS"),
         };
         if !bytes.windows(MARK.len()).any(|part| part == MARK) {
-            return refuse("it does not say that it reads what this program writes");
+            return refuse("it does not read the resources of this version");
         }
         Ok(Self { bytes, place })
     }
 }
 
-/// An FMU, and what is in it.
+/// An FMU and its description.
 #[derive(Clone, Debug)]
 pub struct Fmu {
     /// The archive.
     pub bytes: Vec<u8>,
-    /// What an importer knows of it.
+    /// Its description for importers.
     pub description: Description,
 }
 
-/// Makes an FMU of a scene. The scene is built before anything else is done.
+/// Makes an FMU from a scene. The scene is built first.
 ///
 /// # Errors
 /// [`ArchiveError`].

@@ -1,7 +1,7 @@
-//! Components by the handles that an importer has, and what happens around each call.
+//! Components by importer handle, and the common part of each call.
 //!
-//! `(handle, work) => status, messages`. A handle is a number that is given out once, so that one that is none
-//! or has been freed is told, and no pointer of ours is a caller's. No panic goes further than here.
+//! `(handle, work) => status, messages`. A handle is a number that is issued once, so that invalid and freed handles
+//! are detected and callers get no internal pointers. Panics are caught here.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -19,16 +19,16 @@ use crate::xml::{CATEGORIES, Fmi};
 pub const OK: c_int = 0;
 /// Refused, or failed; the instance can be reset.
 pub const ERROR: c_int = 3;
-/// A defect of ours; the instance is of no use any more.
+/// An internal error; the instance is no longer usable.
 pub const FATAL: c_int = 4;
 
-/// A component, and what belongs to its handle.
+/// A component with the data of its handle.
 pub struct Held {
     /// The component.
     pub component: Component,
-    /// States that were kept, by their handles.
+    /// Saved states by handle.
     pub states: BTreeMap<usize, Vec<u8>>,
-    /// The status of the last step, and what was said of it.
+    /// The status of the last step, with its message.
     pub last_step: (c_int, CString),
     is_broken: bool,
 }
@@ -41,24 +41,24 @@ struct Entry {
 static ENTRIES: RwLock<BTreeMap<usize, Arc<Entry>>> = RwLock::new(BTreeMap::new());
 static NEXT: AtomicUsize = AtomicUsize::new(1);
 
-/// A number that no other handle has; never null.
+/// A unique number; never null.
 #[must_use]
 pub fn new_handle() -> usize {
-    // As far from one another as what is allocated.
+    // Spaced like allocations.
     NEXT.fetch_add(1, Ordering::Relaxed).wrapping_mul(16)
 }
 
-/// A handle as C has it.
+/// A handle as a C pointer.
 #[must_use]
 pub fn pointer(handle: usize) -> *mut c_void {
     std::ptr::without_provenance_mut(handle)
 }
 
-/// What a panic says.
+/// The message of a panic.
 fn words(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
-    format!("a defect of the library: {}", text.unwrap_or_default())
+    format!("internal error of the library: {}", text.unwrap_or_default())
 }
 
 fn show(log: &Log, status: c_int, function: &str, message: &str) {
@@ -66,7 +66,7 @@ fn show(log: &Log, status: c_int, function: &str, message: &str) {
     log.write(status, errors, &format!("{function}: {message}"));
 }
 
-/// Makes a component and gives its handle; null with a message where that is refused.
+/// Makes a component and returns its handle; null with a message if refused.
 pub fn instantiate(
     function: &str,
     log: Log,
@@ -97,7 +97,7 @@ pub fn instantiate(
     }
 }
 
-/// Forgets a component; a handle that is none is left alone.
+/// Frees a component; an invalid handle is ignored.
 pub fn free(handle: *mut c_void) {
     let mut entries = ENTRIES.write().unwrap_or_else(PoisonError::into_inner);
     let freed = entries.remove(&handle.addr());
@@ -105,7 +105,7 @@ pub fn free(handle: *mut c_void) {
     drop(freed);
 }
 
-/// Works on a component: the status, with a message in the importer's log where it is not OK.
+/// Runs work on a component; returns the status, and logs a message if it is not OK.
 pub fn call(
     handle: *mut c_void,
     function: &str,
@@ -117,7 +117,7 @@ pub fn call(
     let Some(entry) = entry else { return ERROR };
     let mut held = entry.held.lock().unwrap_or_else(PoisonError::into_inner);
     let (status, message) = if held.is_broken {
-        (FATAL, "it has failed for good; free it".to_owned())
+        (FATAL, "the instance has failed; free it".to_owned())
     } else {
         match catch_unwind(AssertUnwindSafe(|| work(&mut held))) {
             Ok(Ok(())) => return OK,
@@ -128,7 +128,7 @@ pub fn call(
             }
         }
     };
-    // The logger may call us.
+    // The logger may call back.
     drop(held);
     show(&entry.log, status, function, &message);
     status
@@ -139,61 +139,61 @@ pub(crate) fn check_categories<'c>(
     names: impl Iterator<Item = Option<Cow<'c, str>>>,
 ) -> Result<(), Refusal> {
     for name in names {
-        let name = name.ok_or_else(|| Refusal::error("a null pointer as a category"))?;
+        let name = name.ok_or_else(|| Refusal::error("null pointer as a category"))?;
         if !CATEGORIES.iter().any(|(known, _)| *known == name) {
-            return Err(Refusal::Error(format!("there is no category {name}")));
+            return Err(Refusal::Error(format!("unknown category {name}")));
         }
     }
     Ok(())
 }
 
 impl Held {
-    /// Keeps the present state; its handle.
+    /// Saves the present state; returns its handle.
     ///
     /// # Errors
-    /// Where the plant has failed.
+    /// If the plant has failed.
     pub fn keep(&mut self, asked: usize) -> Result<usize, Refusal> {
         let state = self.component.save()?;
         Ok(self.put(asked, state))
     }
 
-    /// Keeps bytes as a state, in place of the one of a handle where there is one.
+    /// Stores bytes as a state, replacing that of a handle if given.
     fn put(&mut self, asked: usize, state: Vec<u8>) -> usize {
         let handle = if self.states.contains_key(&asked) { asked } else { new_handle() };
         self.states.insert(handle, state);
         handle
     }
 
-    /// Keeps a caller's bytes as a state.
+    /// Stores a caller's bytes as a state.
     ///
     /// # Errors
-    /// Where they are none of this FMU.
+    /// If they are not a state of this FMU.
     pub fn take(&mut self, bytes: &[u8]) -> Result<usize, Refusal> {
         self.component.check(bytes)?;
         Ok(self.put(0, bytes.to_vec()))
     }
 
-    /// A state that was kept.
+    /// A saved state.
     ///
     /// # Errors
-    /// A handle that is none of this instance's.
+    /// A handle that does not belong to this instance.
     pub fn state(&self, handle: usize) -> Result<&[u8], Refusal> {
         let state = self.states.get(&handle).map(Vec::as_slice);
-        state.ok_or_else(|| Refusal::error("this is no state that the instance keeps"))
+        state.ok_or_else(|| Refusal::error("unknown state: the instance has not saved it"))
     }
 
-    /// Goes back to a state that was kept.
+    /// Restores a saved state.
     ///
     /// # Errors
-    /// A handle that is none of this instance's, or a damaged state.
+    /// A handle that does not belong to this instance, or a damaged state.
     pub fn go_back(&mut self, handle: usize) -> Result<(), Refusal> {
         let state = self.states.get(&handle);
         let state =
-            state.ok_or_else(|| Refusal::error("this is no state that the instance keeps"))?;
+            state.ok_or_else(|| Refusal::error("unknown state: the instance has not saved it"))?;
         self.component.restore(state)
     }
 
-    /// A communication step, whose status is remembered.
+    /// A communication step, whose status is stored.
     ///
     /// # Errors
     /// As [`Component::step`].

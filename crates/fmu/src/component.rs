@@ -1,7 +1,7 @@
-//! An instance as FMI sees it: modes, value references, absolute time.
+//! An instance for FMI: modes, value references, absolute time.
 //!
-//! `(variables set, communication steps) => variables got`. Parameters that are set wait until they are
-//! needed, at the latest until initialisation ends: the plant is made anew once.
+//! `(variables set, communication steps) => variables got`. Parameters are applied when needed, at the latest at the
+//! end of initialisation, so that the plant is rebuilt once.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,10 +16,10 @@ use crate::resource::Resource;
 use crate::token::token;
 use crate::xml::Fmi;
 
-/// Where in its life a component is.
+/// The mode of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Made, or reset.
+    /// Instantiated, or reset.
     Instantiated,
     /// Initialisation has begun.
     Initializing,
@@ -29,16 +29,16 @@ pub enum Mode {
     Terminated,
 }
 
-/// Why a call did not do its work. Never `Discard`: importers repeat a discarded step from the last successful
-/// time, for ever where that has not moved.
+/// Why a call failed. Never `Discard`: importers repeat a discarded step from the last successful time, indefinitely if
+/// that has not advanced.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// It is wrong, or has failed.
+    /// An invalid call, or a failure.
     Error(String),
 }
 
 impl Refusal {
-    /// An error in words.
+    /// An error with a message.
     pub(crate) fn error(text: impl Into<String>) -> Self {
         Self::Error(text.into())
     }
@@ -59,21 +59,21 @@ pub struct Component {
     pub(crate) mode: Mode,
     /// \[s\] the importer's time at the plant's t = 0.
     pub(crate) start_time: f64,
-    /// Parameters that were set, by value reference.
+    /// Parameters set so far, by value reference.
     pub(crate) set: BTreeMap<u32, f64>,
-    /// Whether the plant has not got all of them yet.
+    /// Whether some are not applied to the plant yet.
     pub(crate) is_waiting: bool,
-    /// Parameters as the plant has them, by path.
+    /// The plant's parameters, by path.
     pub(crate) parameters: BTreeMap<String, f64>,
-    /// The plant in double precision that derivatives are taken of, of the present parameters.
+    /// The plant in double precision for derivatives, with the present parameters.
     pub(crate) probe: Option<Probe>,
 }
 
 impl Component {
-    /// What an FMU's resources hold.
+    /// Loads a component from an FMU's resources.
     ///
     /// # Errors
-    /// The words for the log: resources are missing or damaged, the scene is refused, or the token is another's.
+    /// The log message: resources are missing or damaged, the scene is refused, or the token does not match.
     pub fn new(folder: &Path, fmi: Fmi, token_asked: &str) -> Result<Self, String> {
         let resource = Resource::read(folder).map_err(|error| error.to_string())?;
         let Resource { blueprint, settings } = resource.clone();
@@ -83,8 +83,8 @@ impl Component {
         let token = token(&description, &resource, fmi);
         if token != token_asked {
             return Err(format!(
-                "the token {token_asked} is not that of these resources, {token}; an FMU is made by host-sim fmu \
-                 and not changed afterwards"
+                "the token {token_asked} does not match these resources, {token}; make a new FMU with host-sim \
+                 fmu and do not change it afterwards"
             ));
         }
         let mut component = Self {
@@ -103,7 +103,7 @@ impl Component {
         Ok(component)
     }
 
-    /// Reads the parameters, some of which may follow from others.
+    /// Reads the parameters, some of which may depend on others.
     pub(crate) fn note_parameters(&mut self) -> Result<(), InstanceError> {
         self.probe = None;
         let numbers = self.instance.parameters()?;
@@ -117,7 +117,7 @@ impl Component {
         self.start_time + self.instance.time()
     }
 
-    /// Where in its life it is.
+    /// Its mode.
     #[must_use]
     pub fn mode(&self) -> Mode {
         self.mode
@@ -127,7 +127,7 @@ impl Component {
         let variable = self.description.variables.get(reference as usize);
         variable.map(|variable| &variable.role).ok_or_else(|| {
             Refusal::Error(format!(
-                "there is no variable with the value reference {reference}; they go up to {}",
+                "no variable with the value reference {reference}; the largest is {}",
                 self.description.variables.len() - 1
             ))
         })
@@ -140,16 +140,16 @@ impl Component {
         let is = match self.mode {
             Mode::Instantiated => "not initialised yet",
             Mode::Initializing => "in initialisation mode",
-            Mode::Stepping => "initialised already",
+            Mode::Stepping => "already initialised",
             Mode::Terminated => "terminated",
         };
-        Err(Refusal::Error(format!("out of order: the FMU is {is}")))
+        Err(Refusal::Error(format!("call out of order: the FMU is {is}")))
     }
 
-    /// Variables as they are now, in the order asked for.
+    /// Present values of variables, in the requested order.
     ///
     /// # Errors
-    /// An unknown value reference, or parameters that are refused.
+    /// An unknown value reference, or refused parameters.
     pub fn get(&mut self, references: &[u32]) -> Result<Vec<f64>, Refusal> {
         let mut outputs = Vec::new();
         for reference in references {
@@ -182,7 +182,7 @@ impl Component {
     /// Sets inputs, and parameters before initialisation has ended.
     ///
     /// # Errors
-    /// What cannot be set, or not to this value; what stands before it is set.
+    /// A variable that cannot be set, or not to this value; those before it are set.
     pub fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), Refusal> {
         self.expect(&[Mode::Instantiated, Mode::Initializing, Mode::Stepping])?;
         for (&reference, &value) in references.iter().zip(values) {
@@ -210,7 +210,7 @@ impl Component {
         Ok(())
     }
 
-    /// Gives the plant the parameters that wait.
+    /// Applies pending parameters to the plant.
     pub(crate) fn settle(&mut self) -> Result<(), Refusal> {
         if !self.is_waiting {
             return Ok(());
@@ -226,20 +226,20 @@ impl Component {
         Ok(self.note_parameters()?)
     }
 
-    /// Begins at an importer's time.
+    /// Sets the start time.
     ///
     /// # Errors
-    /// Out of order, or a time that is none.
+    /// Out of order, or a time that is not finite.
     pub fn setup(&mut self, start_time: f64) -> Result<(), Refusal> {
         self.expect(&[Mode::Instantiated])?;
         if !start_time.is_finite() {
-            return Err(Refusal::Error(format!("a start at {start_time:?} s is no time")));
+            return Err(Refusal::Error(format!("start time {start_time:?} s is not finite")));
         }
         self.start_time = start_time;
         Ok(())
     }
 
-    /// Begins to initialise.
+    /// Enters initialisation.
     ///
     /// # Errors
     /// Out of order.
@@ -249,10 +249,10 @@ impl Component {
         Ok(())
     }
 
-    /// Ends initialisation: parameters are fixed from now on.
+    /// Exits initialisation: parameters are fixed from now on.
     ///
     /// # Errors
-    /// Out of order, or parameters that are refused; it is still in initialisation then.
+    /// Out of order, or refused parameters; it remains in initialisation then.
     pub fn exit_initialization(&mut self) -> Result<(), Refusal> {
         self.expect(&[Mode::Initializing])?;
         self.settle()?;
@@ -260,23 +260,23 @@ impl Component {
         Ok(())
     }
 
-    /// Goes from the communication point on by a communication step.
+    /// Performs a communication step from the communication point.
     ///
     /// # Errors
-    /// Where that is no whole number of the plant's steps, the point is not where the plant is, or a step fails.
-    /// Nothing is changed but in the last case.
+    /// If it is not a multiple of the plant's step, the point differs from the plant's time, or a step fails. Nothing
+    /// is changed except in the last case.
     pub fn step(&mut self, point: f64, size: f64) -> Result<(), Refusal> {
         self.expect(&[Mode::Stepping])?;
         let now = self.time();
         if !(point.is_finite() && size.is_finite() && size >= 0.0) {
             return Err(Refusal::Error(format!(
-                "a communication step of {size:?} s from {point:?} s is none"
+                "invalid communication step of {size:?} s from {point:?} s"
             )));
         }
         if (point - now).abs() > NEAR * self.instance.step_size() {
             return Err(Refusal::Error(format!(
-                "the communication point is {point:?} s, the plant is at {now:?} s; a state that was kept brings it \
-                 back"
+                "the communication point is {point:?} s, but the plant is at {now:?} s; restore a saved state to \
+                 go back"
             )));
         }
         self.instance.advance_to(point + size - self.start_time).map_err(|error| match error {
@@ -295,10 +295,10 @@ impl Component {
         Ok(())
     }
 
-    /// Goes back to what it was when it was made.
+    /// Resets it to its initial state.
     ///
     /// # Errors
-    /// None that making it has not shown.
+    /// Only those that instantiation would have reported.
     pub fn reset(&mut self) -> Result<(), Refusal> {
         let Resource { blueprint, settings } = self.resource.clone();
         self.instance = Instance::new(blueprint, settings)?;
@@ -309,7 +309,7 @@ impl Component {
     }
 }
 
-/// What to say of a communication step that is no whole number of the plant's steps: both ways out.
+/// The message for a communication step that is not a multiple of the plant's step, with both remedies.
 fn no_multiple(size: f64, step: f64) -> String {
     let steps = size / step;
     let seconds = |time| rounded(time, 12).to_string();
@@ -317,7 +317,7 @@ fn no_multiple(size: f64, step: f64) -> String {
     let fitting: Vec<String> =
         nearest.into_iter().filter(|time| *time > 0.0).map(seconds).collect();
     format!(
-        "a communication step of {size:?} s is no whole number of the plant's steps of {}; set the importer's \
+        "a communication step of {size:?} s is not a multiple of the plant's step of {}; set the importer's \
          communication step (output interval) to {} s, or make the FMU with a step that divides it: \
          host-sim fmu --step {}",
         display(step),

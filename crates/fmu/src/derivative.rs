@@ -1,23 +1,23 @@
 //! Directional derivatives of outputs with respect to inputs.
 //!
-//! `(outputs, inputs, seed) => ∂y/∂u · seed` at the present communication point: what a change of the inputs
-//! makes of the outputs before time goes on. Differences of fourth order over a plant in double precision, whatever the
-//! precision of the component; it is built at the first call and again where parameters have changed.
+//! `(outputs, inputs, seed) => ∂y/∂u · seed` at the present communication point: the direct effect of the inputs on the
+//! outputs at constant time. Fourth-order differences on a plant in double precision, regardless of the component's
+//! precision; it is built at the first call and again after a change of parameters.
 
 use dbd_plant::instance::linearisation::Probe;
 
 use crate::component::{Component, Mode, Refusal};
 use crate::description::Role;
 
-/// \[m, m/s\] how far an anchor is moved for a difference; other inputs by 1 of their units.
+/// \[m, m/s\] displacement of an anchor for a difference; other inputs change by 1 in their unit.
 const DISPLACEMENT: f64 = 1e-5;
 
 impl Component {
-    /// The derivatives of outputs along a change of inputs, both by their value references.
+    /// The directional derivatives of outputs with respect to inputs, both by value reference.
     ///
     /// # Errors
-    /// Before initialisation, where an unknown is no output or a known no input, after a failed step, or
-    /// where an output or a force is undefined.
+    /// Before initialisation, if an unknown is not an output or a known not an input, after a failed step, or if an
+    /// output or a force is undefined.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[u32],
@@ -40,13 +40,13 @@ impl Component {
                     seeds.push(seed);
                 }
                 Role::Input(_) => {
-                    return Err(Refusal::Error(format!("a seed of {seed:?} is not finite")));
+                    return Err(Refusal::Error(format!("seed {seed:?} is not finite")));
                 }
                 _ => return Err(self.no_pair(known, "a known", "an input")),
             }
         }
         self.settle()?;
-        // A failed step is said again.
+        // Reports a failed step again.
         self.instance.advance(0)?;
         let mut probe = match self.probe.take() {
             Some(probe) => probe,
@@ -65,7 +65,7 @@ impl Component {
     fn no_pair(&self, reference: u32, is: &str, wanted: &str) -> Refusal {
         let name = &self.description.variables[reference as usize].name;
         Refusal::Error(format!(
-            "{name} is not {wanted} and cannot be {is}: there are only derivatives of outputs with respect to inputs"
+            "{name} is not {wanted} and cannot be {is}: only derivatives of outputs with respect to inputs exist"
         ))
     }
 }

@@ -1,6 +1,6 @@
-//! The variables of an FMU, and what they are.
+//! The variables of an FMU and their roles.
 //!
-//! `instance => variables`, the place of each its value reference: time, inputs, outputs, parameters. The model
+//! `instance => variables`, whose index is the value reference: time, inputs, outputs, parameters. The model
 //! description and the interface both read this list.
 
 use std::collections::BTreeSet;
@@ -10,66 +10,66 @@ use dbd_scene::BODY_COLUMNS;
 
 use crate::names::structured;
 
-/// How many communication steps a scene without a sampling interval has.
+/// Number of communication steps for a scene without a sampling interval.
 const SAMPLES: f64 = 500.0;
 
-/// Numbers of a scene that are about its run, which the importer has.
+/// Numbers of a scene that concern its run, which the importer controls.
 const OF_THE_RUN: [&str; 3] = ["duration", "step", "every"];
 
-/// What a variable is to the plant.
+/// The role of a variable in the plant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Role {
     /// The independent variable.
     Time,
-    /// One of the instance's inputs, by its place.
+    /// An input of the instance, by index.
     Input(usize),
-    /// One of its outputs, by its place; whether inputs may act on it without a step.
+    /// An output, by index; whether inputs may act on it directly.
     Output(usize, bool),
-    /// A parameter, by its path.
+    /// A parameter, by path.
     Parameter(String),
 }
 
 /// A variable of an FMU.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Its name, structured where [`Description::is_structured`].
+    /// Its name, structured if [`Description::is_structured`].
     pub name: String,
-    /// What it is to the plant.
+    /// Its role in the plant.
     pub role: Role,
     /// The SI unit; empty for a plain number.
     pub unit: String,
-    /// \[`unit`\] its first value; `None` where that is computed.
+    /// \[`unit`\] its initial value; `None` if computed.
     pub start: Option<f64>,
-    /// \[`unit`\] the least and the largest value that it takes; infinite without bounds.
+    /// \[`unit`\] the smallest and the largest accepted value; infinite without bounds.
     pub range: [f64; 2],
-    /// What it is, in a few words.
+    /// A short description.
     pub description: String,
 }
 
-/// What an importer knows of an FMU before it loads it.
+/// The description of an FMU for importers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// The scene's name.
     pub name: String,
-    /// What the scene shows.
+    /// The scene's description.
     pub description: String,
     /// \[s\] the scene's duration.
     pub duration: f64,
     /// \[s\] the plant's step.
     pub step: f64,
-    /// \[s\] a communication step that suits: the scene's sampling interval in whole steps of the plant.
+    /// \[s\] a suitable communication step: the scene's sampling interval rounded to whole steps of the plant.
     pub communication_step: f64,
     /// Whether all names follow FMI's structured naming.
     pub is_structured: bool,
-    /// The variables; the place of each is its value reference.
+    /// The variables; the index of each is its value reference.
     pub variables: Vec<Variable>,
 }
 
 impl Description {
-    /// What an instance at t = 0 is.
+    /// The description of an instance at t = 0.
     ///
     /// # Errors
-    /// None that making the instance has not shown.
+    /// Only those that instantiation would have reported.
     pub fn of(instance: &Instance) -> Result<Self, InstanceError> {
         let (scene, step) = (instance.scene(), instance.step_size());
         let every = scene.every.unwrap_or(scene.duration / SAMPLES);
@@ -88,7 +88,7 @@ impl Description {
         }
         for SceneNumber { path, value, unit } in instance.parameters()? {
             if !OF_THE_RUN.contains(&path.as_str()) {
-                let what = format!("number of the scene, {path}");
+                let what = format!("parameter of the scene, {path}");
                 let role = Role::Parameter(path.clone());
                 listed.push(self::listed(&path, role, &unit, Some(value), what));
             }
@@ -111,7 +111,7 @@ fn listed(name: &str, role: Role, unit: &str, start: Option<f64>, description: S
     Variable { name: name.into(), role, unit: unit.into(), start, range, description }
 }
 
-/// Gives each variable a name of its own; whether all are structured.
+/// Gives each variable a unique name; returns whether all are structured.
 fn name_all(variables: &mut [Variable]) -> bool {
     let names: Option<Vec<String>> = variables.iter().map(|v| structured(&v.name)).collect();
     let is_structured = names.is_some();

@@ -27,7 +27,7 @@ const TERMINATED: c_int = 3;
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Callbacks {
-    /// Where messages go.
+    /// The logger.
     pub logger: Option<Logger2>,
     /// Not used: the library has its own memory.
     pub allocate_memory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
@@ -35,7 +35,7 @@ pub struct Callbacks {
     pub free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
     /// Not used: a step ends before its call returns.
     pub step_finished: Option<unsafe extern "C" fn(*mut c_void, c_int)>,
-    /// The importer's own.
+    /// The importer's environment.
     pub environment: *mut c_void,
 }
 
@@ -43,7 +43,7 @@ pub struct Callbacks {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct EventInfo {
-    /// The five that are true or false, in the standard's order.
+    /// The five booleans, in the standard's order.
     pub flags: [c_int; 5],
     /// \[s\] the next event.
     pub next_event_time: f64,
@@ -61,10 +61,10 @@ pub extern "C" fn fmi2GetVersion() -> *const c_char {
     c"2.0".as_ptr()
 }
 
-/// `fmi2Instantiate`: a component; null, with a message in the log, where that is refused.
+/// `fmi2Instantiate`: a component; null, with a message in the log, if refused.
 ///
 /// # Safety
-/// Pointers are null or as the standard has them.
+/// Pointers are null or as required by the standard.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Instantiate(
     instance_name: *const c_char,
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
             let name = c_text(name.as_deref().unwrap_or_default());
             Log::Two(logger, environment.expose_provenance(), name)
         }
-        // Nobody can be told.
+        // There is no logger to report to.
         Err(_) => return std::ptr::null_mut(),
     };
     instantiate("fmi2Instantiate", log, Fmi::Two, || {
@@ -91,31 +91,31 @@ pub unsafe extern "C" fn fmi2Instantiate(
             return Err("this FMU is for co-simulation".into());
         }
         name.filter(|name| !name.is_empty()).ok_or("an instance needs a name")?;
-        let resources = resources.ok_or("no place of the resources is given")?;
+        let resources = resources.ok_or("no resource location is given")?;
         Ok((folder(&resources)?, guid.ok_or("no GUID is given")?.into_owned()))
     })
 }
 
-/// `fmi2FreeInstance`: states that it keeps go with it.
+/// `fmi2FreeInstance`: also frees its saved states.
 ///
 /// # Safety
-/// None: a handle that is none is told.
+/// None: an invalid handle is detected.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(handle: *mut c_void) {
     free(handle);
 }
 
-/// Refuses to give or take variables of a type that there are none of.
+/// Refuses to get or set variables of an unused type.
 fn none_of(count: usize) -> Result<(), Refusal> {
     if count == 0 { Ok(()) } else { Err(Refusal::error("all variables of this FMU are Real")) }
 }
 
-/// Whether a kind of status is the one that a function gives.
+/// Checks the status kind of a function.
 fn is_kind(asked: c_int, kind: c_int) -> Result<(), Refusal> {
     if asked == kind {
         Ok(())
     } else {
-        Err(Refusal::Error(format!("there is no status of the kind {asked} of this type")))
+        Err(Refusal::Error(format!("no status of kind {asked} has this type")))
     }
 }
 
@@ -175,7 +175,7 @@ exported! {
         is_kind(kind, TERMINATED)?;
         write(value, &[0])
     };
-    /// The text lives until the next step.
+    /// The text is valid until the next step.
     fn fmi2GetStringStatus(kind: c_int, value: *mut *const c_char) |held| {
         is_kind(kind, PENDING)?;
         write(value, &[held.last_step.1.as_ptr()])

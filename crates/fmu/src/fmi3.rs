@@ -1,4 +1,4 @@
-//! The functions of FMI 3.0.2 that this FMU has; the others are in `fmi3_absent`.
+//! The functions of FMI 3.0.2 that this FMU supports; the others are in `fmi3_absent`.
 //!
 //! `C calls => component`. Names and arguments are the standard's (`fmi3Functions.h`).
 
@@ -15,7 +15,7 @@ use crate::location::folder;
 use crate::states::{deserialize, free_state, get_state, serialize};
 use crate::xml::Fmi;
 
-/// `fmi3Boolean`: C's `bool`, of which a caller in C may make any byte.
+/// `fmi3Boolean`: C's `bool`, for which a C caller may pass any byte.
 pub type Boolean = u8;
 /// `fmi3IntermediateUpdateCallback`.
 pub type IntermediateUpdate = unsafe extern "C" fn(
@@ -35,10 +35,10 @@ pub extern "C" fn fmi3GetVersion() -> *const c_char {
     c"3.0".as_ptr()
 }
 
-/// `fmi3InstantiateCoSimulation`: a component; null, with a message in the log, where that is refused.
+/// `fmi3InstantiateCoSimulation`: a component; null, with a message in the log, if refused.
 ///
 /// # Safety
-/// Pointers are null or as the standard has them.
+/// Pointers are null or as required by the standard.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     instance_name: *const c_char,
@@ -62,21 +62,21 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
         if event_mode != 0 || intermediate_count != 0 {
             return Err("this FMU has neither events nor intermediate variables".into());
         }
-        let resources = resources.ok_or("no place of the resources is given")?;
+        let resources = resources.ok_or("no resource location is given")?;
         Ok((folder(&resources)?, token.ok_or("no token is given")?.into_owned()))
     })
 }
 
-/// `fmi3FreeInstance`: states that it keeps go with it.
+/// `fmi3FreeInstance`: also frees its saved states.
 ///
 /// # Safety
-/// None: a handle that is none is told.
+/// None: an invalid handle is detected.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3FreeInstance(handle: *mut c_void) {
     free(handle);
 }
 
-/// Whether there is a value for each reference: no variable is an array.
+/// Checks that there is one value for each reference: no variable is an array.
 fn same_count(count: usize, values: usize) -> Result<(), Refusal> {
     if count == values {
         return Ok(());

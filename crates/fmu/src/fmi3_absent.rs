@@ -1,6 +1,7 @@
-//! The functions of FMI 3.0.2 of what this FMU does not have: other types, events, clocks, derivatives, other kinds.
+//! The functions of FMI 3.0.2 that this FMU does not support: other types, events, clocks, derivatives, other interface
+//! types.
 //!
-//! `C calls => error, and why in the log`. Arguments are the standard's (`fmi3Functions.h`).
+//! `C calls => error, with the reason in the log`. Arguments are the standard's (`fmi3Functions.h`).
 
 #![allow(unsafe_code, reason = "the functions that C calls")]
 #![allow(non_snake_case, reason = "the standard's names")]
@@ -20,16 +21,16 @@ pub type ClockUpdate = unsafe extern "C" fn(*mut c_void);
 /// `fmi3LockPreemptionCallback`, `fmi3UnlockPreemptionCallback`.
 pub type Preemption = unsafe extern "C" fn();
 
-/// Tells why there is no instance of another kind.
+/// Refuses an instance of another interface type.
 fn refused(function: &str, logger: Option<Logger3>, environment: *mut c_void) -> *mut c_void {
     let log = Log::Three(logger, environment.expose_provenance());
     instantiate(function, log, Fmi::Three, || Err("this FMU is for co-simulation".into()))
 }
 
-/// `fmi3InstantiateModelExchange`: null, and why in the log.
+/// `fmi3InstantiateModelExchange`: null, with the reason in the log.
 ///
 /// # Safety
-/// Pointers are null or as the standard has them.
+/// Pointers are null or as required by the standard.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     _instance_name: *const c_char,
@@ -43,10 +44,10 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     refused("fmi3InstantiateModelExchange", logger, environment)
 }
 
-/// `fmi3InstantiateScheduledExecution`: null, and why in the log.
+/// `fmi3InstantiateScheduledExecution`: null, with the reason in the log.
 ///
 /// # Safety
-/// Pointers are null or as the standard has them.
+/// Pointers are null or as required by the standard.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _instance_name: *const c_char,
@@ -63,7 +64,7 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     refused("fmi3InstantiateScheduledExecution", logger, environment)
 }
 
-/// Refuses to give or take variables of a type that there are none of.
+/// Refuses to get or set variables of an unused type.
 fn none_of(count: usize) -> Result<(), Refusal> {
     if count == 0 { Ok(()) } else { Err(Refusal::error("all variables of this FMU are Float64")) }
 }

@@ -1,6 +1,6 @@
-//! What a caller in C hands over: texts, arrays, places for results, a logger.
+//! Arguments of a C caller: texts, arrays, result buffers, a logger.
 //!
-//! `pointers => slices, texts`. All that dereferences a caller's pointer is here; a null pointer is told.
+//! `pointers => slices, texts`. All dereferencing of a caller's pointers is here; null pointers are detected.
 
 #![allow(unsafe_code, reason = "a caller in C hands over pointers")]
 
@@ -26,26 +26,26 @@ pub type Logger3 = unsafe extern "C" fn(
     message: *const c_char,
 );
 
-/// Where messages go.
+/// The destination of messages.
 #[derive(Clone, Debug)]
 pub enum Log {
     /// To an importer of FMI 2; the environment is the caller's own address.
     Two(Option<Logger2>, usize, CString),
-    /// Of FMI 3.
+    /// To an importer of FMI 3.
     Three(Option<Logger3>, usize),
 }
 
 impl Log {
-    /// Shows a message to the importer.
+    /// Sends a message to the importer.
     pub fn write(&self, status: c_int, category: &str, message: &str) {
         match self {
             Self::Two(Some(logger), environment, name) => {
-                // The message is a format of printf, and `#` begins a reference to a variable.
+                // The message is a printf format, in which `#` starts a reference to a variable.
                 let message = c_text(&message.replace('%', "%%").replace('#', "##"));
                 let (category, environment) = (c_text(category), *environment);
                 let environment = std::ptr::with_exposed_provenance_mut(environment);
-                // SAFETY: the importer's logger, with texts that end in zero and no further argument, which
-                // the format does not ask for.
+                // SAFETY: the importer's logger, with zero-terminated texts and no further argument, which the format
+                // does not require.
                 unsafe {
                     logger(environment, name.as_ptr(), status, category.as_ptr(), message.as_ptr());
                 }
@@ -53,7 +53,7 @@ impl Log {
             Self::Three(Some(logger), environment) => {
                 let (category, message) = (c_text(category), c_text(message));
                 let environment = std::ptr::with_exposed_provenance_mut(*environment);
-                // SAFETY: the importer's logger, with texts that end in zero.
+                // SAFETY: the importer's logger, with zero-terminated texts.
                 unsafe { logger(environment, status, category.as_ptr(), message.as_ptr()) }
             }
             Self::Two(None, ..) | Self::Three(None, _) => {}
@@ -61,17 +61,17 @@ impl Log {
     }
 }
 
-/// A text that ends in zero; what is behind a zero in it is left out.
+/// A zero-terminated text, cut at an inner zero.
 #[must_use]
 pub fn c_text(text: &str) -> CString {
     let text = text.split('\0').next().unwrap_or_default();
     CString::new(text).unwrap_or_default()
 }
 
-/// A caller's text; `None` where the pointer is null.
+/// A caller's text; `None` if the pointer is null.
 ///
 /// # Safety
-/// Null, or a text that ends in zero and lives as long as is said.
+/// Null, or a zero-terminated text valid for the returned lifetime.
 #[must_use]
 pub unsafe fn text<'c>(pointer: *const c_char) -> Option<Cow<'c, str>> {
     // SAFETY: as the caller promises.
@@ -81,10 +81,10 @@ pub unsafe fn text<'c>(pointer: *const c_char) -> Option<Cow<'c, str>> {
 /// A caller's array.
 ///
 /// # Errors
-/// A null pointer, unless nothing is in it.
+/// A null pointer, unless the array is empty.
 ///
 /// # Safety
-/// Null, or so many values that nobody changes for as long as is said.
+/// Null, or the given number of values, unchanged for the returned lifetime.
 pub unsafe fn slice<'c, T>(pointer: *const T, count: usize) -> Result<&'c [T], Refusal> {
     if count == 0 {
         return Ok(&[]);
@@ -100,18 +100,18 @@ pub unsafe fn slice<'c, T>(pointer: *const T, count: usize) -> Result<&'c [T], R
 /// A null pointer, unless there is nothing to write.
 ///
 /// # Safety
-/// Null, or a place for so many values.
+/// Null, or space for the given number of values.
 pub unsafe fn write<T: Copy>(pointer: *mut T, values: &[T]) -> Result<(), Refusal> {
     if values.is_empty() {
         return Ok(());
     }
     check(pointer, values.len())?;
-    // SAFETY: not null, aligned, and the rest as the caller promises; our values lie elsewhere.
+    // SAFETY: not null, aligned, and the rest as the caller promises; the values do not overlap.
     unsafe { std::ptr::copy_nonoverlapping(values.as_ptr(), pointer, values.len()) };
     Ok(())
 }
 
-/// What a caller's pointer points to.
+/// The value of a caller's pointer.
 ///
 /// # Errors
 /// A null pointer.
@@ -126,10 +126,10 @@ pub unsafe fn read<T: Copy>(pointer: *const T) -> Result<T, Refusal> {
 
 fn check<T>(pointer: *const T, count: usize) -> Result<(), Refusal> {
     if pointer.is_null() {
-        return Err(Refusal::error("a null pointer where values are to be"));
+        return Err(Refusal::error("null pointer instead of values"));
     }
     if !pointer.is_aligned() || count > isize::MAX as usize / size_of::<T>().max(1) {
-        return Err(Refusal::error("a pointer that is none"));
+        return Err(Refusal::error("invalid pointer"));
     }
     Ok(())
 }

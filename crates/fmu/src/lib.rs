@@ -4,22 +4,22 @@
 //!
 //! Each uses only those before it:
 //!
-//! - [`names`]: names of variables as FMI's structured naming writes them.
+//! - [`names`]: names of variables in FMI's structured naming.
 //! - [`units`]: SI units in terms of base units.
-//! - [`location`]: where resources lie, from what importers say.
-//! - [`resource`]: what lies in an FMU's `resources/`.
-//! - [`description`]: the variables of an FMU, and what they are.
+//! - [`location`]: the resource folder, from an importer's argument.
+//! - [`resource`]: the contents of an FMU's `resources/`.
+//! - [`description`]: the variables of an FMU and their roles.
 //! - [`xml`]: the model description.
-//! - [`token`]: the key between a model description and the resources beside it.
+//! - [`token`]: the key that ties a model description to its resources.
 //! - [`page`]: the page of an FMU's `documentation/`.
 //! - [`archive`](mod@archive): the FMU as a file.
-//! - [`component`]: an instance as FMI sees it.
+//! - [`component`]: an instance for FMI.
 //! - `derivative`: derivatives of its outputs with respect to its inputs.
 //! - `saved`: its state as bytes.
-//! - [`foreign`]: what a caller in C hands over.
-//! - [`calls`]: components by their handles, and what happens around each call.
-//! - `states`: states by their handles.
-//! - `exported`: the shape of a function that C calls.
+//! - [`foreign`]: arguments of a C caller.
+//! - [`calls`]: components by handle, and the common part of each call.
+//! - `states`: states by handle.
+//! - `exported`: macros for functions called from C.
 //! - [`fmi2`], [`fmi3`], [`fmi3_absent`]: the functions of the standards.
 
 pub mod archive;

@@ -1,17 +1,17 @@
-//! Where an FMU's resources lie, from what importers say.
+//! The folder of an FMU's resources, from an importer's argument.
 //!
 //! `file:///tmp/a%20b/resources => /tmp/a b/resources`. FMI 2 gives a URI, FMI 3 a path; importers mix them up.
 
 use std::path::PathBuf;
 
-/// The folder that a URI or a path names.
+/// The folder given by a URI or a path.
 ///
 /// # Errors
-/// The words for the log: it is no file's.
+/// The log message: it is not a local folder.
 pub fn folder(location: &str) -> Result<PathBuf, String> {
     let Some(rest) = location.strip_prefix("file:") else {
         if location.is_empty() || location.contains("://") {
-            return Err(format!("the resources are at \"{location}\", which is no folder"));
+            return Err(format!("resource location \"{location}\" is not a folder"));
         }
         return Ok(PathBuf::from(location));
     };
@@ -19,13 +19,13 @@ pub fn folder(location: &str) -> Result<PathBuf, String> {
         Some(rest) => {
             let (host, path) = rest.split_at(rest.find('/').unwrap_or(rest.len()));
             if !(host.is_empty() || host == "localhost") {
-                return Err(format!("the resources are at \"{location}\", on another machine"));
+                return Err(format!("resource location \"{location}\" is on another machine"));
             }
             path
         }
         None => rest,
     };
-    // A drive's letter follows the slash.
+    // A drive letter follows the slash.
     let path = if cfg!(windows) { path.strip_prefix('/').unwrap_or(path) } else { path };
     Ok(PathBuf::from(decoded(path)))
 }

@@ -1,9 +1,9 @@
-//! Names of variables as FMI's structured naming writes them.
+//! Names of variables in FMI's structured naming.
 //!
-//! `body."lower arm".at[0][1] => body.'lower arm'.at[0,1]` (FMI 2.0.4, section 2.2.9). What the naming has no
-//! letters for stays as it is, and then no name of the FMU is structured.
+//! `body."lower arm".at[0][1] => body.'lower arm'.at[0,1]` (FMI 2.0.4, section 2.2.9). If a name has characters outside
+//! that naming, all names remain unchanged and unstructured.
 
-/// A name or path of a scene, structured; `None` where it cannot be.
+/// A name or path of a scene in structured form; `None` if impossible.
 #[must_use]
 pub fn structured(path: &str) -> Option<String> {
     let (mut all, mut rest) = (String::new(), path);
@@ -31,7 +31,7 @@ pub fn structured(path: &str) -> Option<String> {
     }
 }
 
-/// A part of a name, in quotes where it needs them.
+/// A part of a name, quoted if necessary.
 fn quoted(name: &str) -> Option<String> {
     let is_letter = |letter: char| letter.is_ascii_alphabetic() || letter == '_';
     if name.starts_with(is_letter) && name.chars().all(|l| is_letter(l) || l.is_ascii_digit()) {
@@ -40,7 +40,7 @@ fn quoted(name: &str) -> Option<String> {
     if name.is_empty() || !name.chars().all(|letter| letter == ' ' || letter.is_ascii_graphic()) {
         return None;
     }
-    // The naming has no place for a grave accent.
+    // The naming does not allow a grave accent.
     (!name.contains('`')).then(|| {
         let escaped = name.replace('\\', "\\\\").replace('\'', "\\'").replace('"', "\\\"");
         format!("'{escaped}'")

@@ -1,6 +1,6 @@
 //! The page of an FMU's `documentation/`.
 //!
-//! `(description, resource) => HTML`: what the scene is, how it is stepped, all variables.
+//! `(description, resource) => HTML`: the scene, its method and all variables.
 
 use std::fmt::Write as _;
 
@@ -22,8 +22,8 @@ pub fn page(of: &Description, resource: &Resource) -> String {
          set again. Parameters are fixed once initialisation has ended.</p>\n\
          <table>\n<tr><th>variable<th>reference<th>kind<th>unit<th>start<th>what it is</tr>\n",
         of.step,
-        asked(&settings.scheme, "the usual one"),
-        asked(&settings.damping, "the scheme's own"),
+        asked(&settings.scheme, "the default"),
+        asked(&settings.damping, "the default of the scheme"),
         asked(&settings.precision, "f64"),
     );
     for (reference, variable) in of.variables.iter().enumerate() {

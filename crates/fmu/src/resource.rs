@@ -1,6 +1,6 @@
-//! What lies in an FMU's `resources/`.
+//! The contents of an FMU's `resources/`.
 //!
-//! `(blueprint, settings) <=> scene.toml, scene.json`. The library reads them where an instance is made.
+//! `(blueprint, settings) <=> scene.toml, scene.json`. The library reads them to make an instance.
 
 use std::io;
 use std::path::Path;
@@ -12,10 +12,10 @@ use thiserror::Error;
 
 /// The scene's text.
 pub const SCENE: &str = "scene.toml";
-/// How it is changed and stepped.
+/// Its changes and method.
 pub const PLAN: &str = "scene.json";
 
-/// A scene and how it is stepped.
+/// A scene and its method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resource {
     /// The scene.
@@ -33,15 +33,15 @@ struct Plan {
     settings: Settings,
 }
 
-/// Why there is no scene.
+/// Why a scene cannot be read.
 #[derive(Debug, Error)]
 pub enum ResourceError {
-    /// A file is not there or cannot be read.
+    /// A file is missing or unreadable.
     #[error("cannot read {file} of the FMU's resources: {reason}")]
     Unreadable {
         /// The file.
         file: &'static str,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
     /// The plan is damaged.
@@ -50,10 +50,10 @@ pub enum ResourceError {
 }
 
 impl Resource {
-    /// A scene with its step written down, so that no parameter changes it later; and an instance of it.
+    /// A scene with a fixed step, which parameters do not change later; and an instance of it.
     ///
     /// # Errors
-    /// Where the scene is refused, or the settings are.
+    /// If the scene or the settings are refused.
     pub fn new(
         blueprint: Blueprint,
         settings: Settings,
@@ -74,7 +74,7 @@ impl Resource {
         [(SCENE, text.to_string()), (PLAN, plan)]
     }
 
-    /// What lies in a folder.
+    /// Reads the resources in a folder.
     ///
     /// # Errors
     /// [`ResourceError`].

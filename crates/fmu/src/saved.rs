@@ -1,7 +1,7 @@
 //! The state of a component as bytes.
 //!
-//! `component <=> bytes`: a head, the token, mode, start time, parameters that were set, then the instance's own
-//! bytes; a checksum over all. Little-endian throughout.
+//! `component <=> bytes`: a header, the token, mode, start time, set parameters, then the instance's bytes; a checksum
+//! over all. Little-endian throughout.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +9,12 @@ use crate::component::{Component, Mode, Refusal};
 use crate::description::Role;
 use crate::token::hash;
 
-/// How the bytes begin; the last is the version.
+/// The first bytes; the last of them is the version.
 const MAGIC: &[u8; 5] = b"dbdf\x01";
-/// Modes by their numbers in a state.
+/// Modes by number in a state.
 const MODES: [Mode; 4] = [Mode::Instantiated, Mode::Initializing, Mode::Stepping, Mode::Terminated];
 
-/// What a state holds.
+/// The contents of a state.
 struct Parts<'b> {
     mode: Mode,
     is_waiting: bool,
@@ -27,7 +27,7 @@ impl Component {
     /// The state as bytes.
     ///
     /// # Errors
-    /// Where the plant has failed.
+    /// If the plant has failed.
     pub fn save(&self) -> Result<Vec<u8>, Refusal> {
         let mut bytes = MAGIC.to_vec();
         bytes.extend(self.token.as_bytes());
@@ -44,10 +44,10 @@ impl Component {
         Ok(bytes)
     }
 
-    /// Goes on from a state, bit for bit; a failure is forgotten.
+    /// Continues from a state, bit for bit; a failure is cleared.
     ///
     /// # Errors
-    /// Where the bytes are no state of this FMU; nothing is changed then.
+    /// If the bytes are not a state of this FMU; nothing is changed.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         let Parts { mode, is_waiting, start_time, set, instance } = self.parts(bytes)?;
         self.instance.restore(instance)?;
@@ -59,13 +59,13 @@ impl Component {
     /// Whether bytes are a state of this FMU.
     ///
     /// # Errors
-    /// Where they are not.
+    /// If they are not.
     pub fn check(&self, bytes: &[u8]) -> Result<(), Refusal> {
         self.parts(bytes).map(drop)
     }
 
     fn parts<'b>(&self, bytes: &'b [u8]) -> Result<Parts<'b>, Refusal> {
-        let refused = |what: &str| Refusal::Error(format!("the state cannot be taken: {what}"));
+        let refused = |what: &str| Refusal::Error(format!("cannot restore the state: {what}"));
         let damaged = || refused("it is damaged");
         let (checked, sum) = bytes.split_last_chunk::<8>().ok_or_else(damaged)?;
         if hash(checked) != u64::from_le_bytes(*sum) {
@@ -73,7 +73,7 @@ impl Component {
         }
         let rest = checked.strip_prefix(MAGIC).ok_or_else(damaged)?;
         let rest = rest.strip_prefix(self.token.as_bytes());
-        let mut rest = rest.ok_or_else(|| refused("it is of another FMU"))?;
+        let mut rest = rest.ok_or_else(|| refused("it belongs to another FMU"))?;
         let mut take = |count: usize| {
             let (taken, left) = rest.split_at_checked(count).ok_or_else(damaged)?;
             rest = left;

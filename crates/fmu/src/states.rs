@@ -1,6 +1,6 @@
-//! States by the handles that an importer has.
+//! States by importer handle.
 //!
-//! `(component, handle) <=> bytes`: what FMI 2 and 3 have in common.
+//! `(component, handle) <=> bytes`: the common part of FMI 2 and 3.
 
 #![allow(unsafe_code, reason = "a caller in C hands over pointers")]
 
@@ -13,7 +13,7 @@ use crate::foreign::{read, slice, write};
 /// `…GetFMUState`.
 ///
 /// # Safety
-/// A null pointer, or a place for a handle that holds one or null.
+/// A null pointer, or a handle variable that contains a handle or null.
 pub(crate) unsafe fn get_state(held: &mut Held, state: *mut *mut c_void) -> Result<(), Refusal> {
     // SAFETY: as the caller promises.
     let asked = unsafe { read(state) }?;
@@ -22,7 +22,7 @@ pub(crate) unsafe fn get_state(held: &mut Held, state: *mut *mut c_void) -> Resu
     unsafe { write(state, &[pointer(kept)]) }
 }
 
-/// `…FreeFMUState`; null is freed already.
+/// `…FreeFMUState`; null is ignored.
 ///
 /// # Safety
 /// As [`get_state`].
@@ -43,7 +43,7 @@ pub(crate) unsafe fn free_state(held: &mut Held, state: *mut *mut c_void) -> Res
 /// `…SerializeFMUState`.
 ///
 /// # Safety
-/// The bytes are null or a place for so many.
+/// The buffer is null or of the given size.
 pub(crate) unsafe fn serialize(
     held: &mut Held,
     state: *mut c_void,
@@ -52,7 +52,10 @@ pub(crate) unsafe fn serialize(
 ) -> Result<(), Refusal> {
     let state = held.state(state.addr())?;
     if size < state.len() {
-        return Err(Refusal::Error(format!("{size} bytes for a state of {}", state.len())));
+        return Err(Refusal::Error(format!(
+            "{size} bytes given for a state of {} bytes",
+            state.len()
+        )));
     }
     // SAFETY: as the caller promises.
     unsafe { write(bytes, state) }
@@ -61,7 +64,7 @@ pub(crate) unsafe fn serialize(
 /// `…DeserializeFMUState`.
 ///
 /// # Safety
-/// The bytes are null or so many; the state as in [`get_state`].
+/// The buffer is null or of the given size; the state as in [`get_state`].
 pub(crate) unsafe fn deserialize(
     held: &mut Held,
     bytes: *const u8,

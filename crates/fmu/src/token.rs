@@ -1,7 +1,7 @@
-//! The key between a model description and the resources beside it.
+//! The key that ties a model description to its resources.
 //!
-//! `(description, resources) => token`: FNV-1a 64 over all that the importer is told and all that the library
-//! reads. It tells a mistake, no malice.
+//! `(description, resources) => token`: FNV-1a 64 over the model description and the resources. It detects mistakes,
+//! not malice.
 
 use crate::description::Description;
 use crate::resource::Resource;
@@ -11,7 +11,7 @@ use crate::xml::{Fmi, model_description};
 #[must_use]
 pub fn token(description: &Description, resource: &Resource, fmi: Fmi) -> String {
     let [scene, plan] = resource.files().map(|(_, text)| text);
-    // Each with its end, so that nothing moves from one to the next unseen.
+    // Each is terminated, so that text cannot move between them undetected.
     let all = [model_description(description, fmi, ""), scene, plan].join("\0");
     format!("{:016x}", hash(all.as_bytes()))
 }

@@ -1,17 +1,17 @@
 //! SI units in terms of base units.
 //!
-//! `N·m·s/rad => name N.m.s/rad, exponents of kg, m, s, A, rad`: the name as Modelica writes it, which importers read.
+//! `N·m·s/rad => name N.m.s/rad, exponents of kg, m, s, A, rad`: the name in Modelica's notation, which importers read.
 
-/// Base units that occur, as attributes of FMI's `BaseUnit`.
+/// The base units used, as attributes of FMI's `BaseUnit`.
 pub const BASE: [&str; 5] = ["kg", "m", "s", "A", "rad"];
 
-/// A unit's name as Modelica writes it.
+/// A unit's name in Modelica's notation.
 #[must_use]
 pub fn modelica(unit: &str) -> String {
     unit.replace('·', ".").replace('²', "2").replace('³', "3")
 }
 
-/// A unit's exponents of [`BASE`]; `None` where it is made of something else.
+/// A unit's exponents of [`BASE`]; `None` if it contains another unit.
 #[must_use]
 pub fn exponents(unit: &str) -> Option<[i32; 5]> {
     let mut sum = [0; 5];
@@ -56,7 +56,7 @@ mod tests {
         assert_eq!(exponents("N·m·s/rad"), Some([1, 2, -1, 0, -1]));
         assert_eq!(exponents("kg·m²"), Some([1, 2, 0, 0, 0]));
         assert_eq!(exponents("m/s²"), Some([0, 1, -2, 0, 0]));
-        // A volt is a newton metre per second and ampere; a motor has as many volts per rate as torque per current.
+        // A volt is a newton metre per second and ampere, so a motor's back-EMF and torque constants are equal.
         assert_eq!(exponents("V"), exponents("N·m/s/A"));
         assert_eq!(exponents("V·s"), exponents("N·m/A"));
         assert_eq!(exponents("furlong"), None);

@@ -16,12 +16,12 @@ pub enum Fmi {
     Three,
 }
 
-/// The name of the library's file, without its ending.
+/// The name of the library file, without extension.
 pub const IDENTIFIER: &str = "dbd_fmu";
-/// The kinds of messages: their names and what they are.
-pub const CATEGORIES: [(&str, &str); 1] = [("logStatusError", "what is refused or has failed")];
+/// The log categories: names and descriptions.
+pub const CATEGORIES: [(&str, &str); 1] = [("logStatusError", "rejected calls and failures")];
 
-/// A text as XML writes it in an attribute or an element.
+/// A text escaped for an XML attribute or element.
 #[must_use]
 pub fn escaped(text: &str) -> String {
     let mut all = String::with_capacity(text.len());
@@ -31,7 +31,7 @@ pub fn escaped(text: &str) -> String {
             '<' => all += "&lt;",
             '>' => all += "&gt;",
             '"' => all += "&quot;",
-            // XML 1.0 has no other control characters.
+            // XML 1.0 allows no other control characters.
             '\t' | '\n' | '\r' => all.push(' '),
             _ if letter.is_control() => all.push('\u{fffd}'),
             _ => all.push(letter),
@@ -143,7 +143,7 @@ fn variable_of(variable: &Variable, reference: usize, fmi: Fmi) -> String {
     }
 }
 
-/// Outputs, each with what acts on it without a step where that is known.
+/// Outputs, each with its direct dependencies if known.
 fn structure(of: &Description, fmi: Fmi) -> String {
     let (mut outputs, mut initial) = (String::new(), String::new());
     for (reference, variable) in of.variables.iter().enumerate() {

@@ -122,7 +122,7 @@ fn what_is_no_pair_of_output_and_input_is_refused_in_words() {
             (angle, angle, 1.0, "angle is not an input and cannot be a known"),
             (angle, mass, 1.0, "derivatives of outputs with respect to inputs"),
             (angle, time, 1.0, "time is not an input"),
-            (angle, drive, f64::NAN, "a seed of NaN is not finite"),
+            (angle, drive, f64::NAN, "seed NaN is not finite"),
             (70_000, drive, 1.0, "no variable with the value reference 70000"),
         ] {
             assert_eq!(host.derivative(&[of], &[by], &[seed]), Err(ERROR));

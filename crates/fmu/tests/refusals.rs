@@ -29,12 +29,12 @@ fn a_wrong_token_and_damaged_resources_give_no_instance() {
             assert!(host.handle.is_null());
             says(&host, words);
         };
-        refused("0123456789abcdef", "the token 0123456789abcdef is not that of these resources");
+        refused("0123456789abcdef", "the token 0123456789abcdef does not match these resources");
         let file = |name: &str| fmu.folder.path().join(name);
         let scene = fs::read_to_string(file("scene.toml")).unwrap();
         let plan = fs::read_to_string(file("scene.json")).unwrap();
         fs::write(file("scene.toml"), scene.replacen("mass = 0.94", "mass = 0.95", 1)).unwrap();
-        refused(&fmu.token, "is not that of these resources");
+        refused(&fmu.token, "does not match these resources");
         fs::write(file("scene.toml"), scene.replacen("mass = 0.94", "mass = -1", 1)).unwrap();
         refused(&fmu.token, "cart-pendulum.toml:");
         fs::write(file("scene.toml"), b"\xff\xfe").unwrap();
@@ -88,7 +88,7 @@ fn a_step_that_is_no_multiple_is_an_error_with_the_remedy() {
         assert_eq!(host.step(10.0 * step, 2.5 * step), ERROR);
         says(
             &host,
-            "a communication step of 0.00125 s is no whole number of the plant's steps of 500us; set the importer's \
+            "a communication step of 0.00125 s is not a multiple of the plant's step of 500us; set the importer's \
              communication step (output interval) to 0.001 s or 0.0015 s, or make the FMU with a step that divides it: \
              host-sim fmu --step 0.000416666666667",
         );
@@ -101,7 +101,7 @@ fn a_step_that_is_no_multiple_is_an_error_with_the_remedy() {
                 assert_eq!(fmi2::fmi2GetRealStatus(host.handle, 2, &mut time), OK);
                 assert_eq!(fmi2::fmi2GetBooleanStatus(host.handle, 3, &mut ended), OK);
                 assert_eq!(fmi2::fmi2GetIntegerStatus(host.handle, 2, &mut status), ERROR);
-                assert!(CStr::from_ptr(text).to_str().unwrap().contains("whole number"));
+                assert!(CStr::from_ptr(text).to_str().unwrap().contains("multiple"));
             }
             assert_eq!((status, time, ended), (ERROR, 10.0 * step, 0));
         }
@@ -181,7 +181,7 @@ fn calls_out_of_order_are_told() {
         assert_eq!([host.exit_initialization(), host.terminate()], [ERROR; 2]);
         assert_eq!(host.initialize(), OK);
         assert_eq!(host.initialize(), ERROR);
-        says(&host, "initialised already");
+        says(&host, "already initialised");
         assert_eq!(host.terminate(), OK);
         assert_eq!(host.set("body.crank.mass", 1.0), ERROR);
         says(&host, "terminated");
@@ -214,7 +214,7 @@ fn handles_that_are_none_are_told() {
         }
         let handle = host.handle;
         assert_eq!(fmi2::fmi2GetReal(handle, null(), 1, &mut value), ERROR);
-        says(&host, "fmi2GetReal: a null pointer");
+        says(&host, "fmi2GetReal: null pointer");
         assert_eq!(fmi2::fmi2GetReal(handle, &0, 1, null_mut()), ERROR);
         assert_eq!(fmi2::fmi2GetReal(handle, null(), 0, null_mut()), OK);
         assert_eq!(fmi2::fmi2SetReal(handle, &0, 1, null()), ERROR);

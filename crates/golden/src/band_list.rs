@@ -1,6 +1,6 @@
 //! Bands as text: `1e-6`, `position=1e-6,orientation=1e-5,velocity=1e-3,angular-velocity=1e-2,angle=1e-4`.
 //!
-//! `text => bands`. A number alone holds for what has no name in the list.
+//! `text => bands`. A number alone applies to everything not named in the list.
 
 use std::borrow::ToOwned as _;
 use std::format;
@@ -21,7 +21,7 @@ pub struct BandList {
 }
 
 impl BandList {
-    /// Looks at them as bands with borrowed names.
+    /// The bands with borrowed names.
     pub fn with<A>(&self, look: impl FnOnce(Bands<'_>) -> A) -> A {
         let values: Vec<(&str, f64)> =
             self.values.iter().map(|(name, band)| (name.as_str(), *band)).collect();
@@ -32,7 +32,7 @@ impl BandList {
     }
 }
 
-/// What is wrong with a text of bands.
+/// An error in a text of bands.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct BandListError(String);
@@ -50,15 +50,17 @@ impl FromStr for BandList {
             };
             let band = number.parse::<f64>().ok().filter(|band| *band >= 0.0 && band.is_finite());
             let Some(band) = band else {
-                return refused(format!("`{number}` is no band: a finite number, not below zero"));
+                return refused(format!(
+                    "`{number}` is not a valid band: give a finite number ≥ 0"
+                ));
             };
             match name {
                 Some(name) if named.iter().any(|(of, _)| of == name) => {
-                    return refused(format!("`{name}` has two bands"));
+                    return refused(format!("`{name}` has two bands: give one"));
                 }
                 Some(name) => named.push((name.to_owned(), band)),
                 None if others.is_some() => {
-                    return refused("two numbers without a name".to_string());
+                    return refused("two numbers without a name: give one".to_string());
                 }
                 None => others = Some(band),
             }
@@ -71,7 +73,7 @@ impl FromStr for BandList {
                 None => {
                     let (name, unit) = (quantity.name(), quantity.unit());
                     return refused(format!(
-                        "the {name} has no band: add `{name}=…` ({unit}), or a number alone for all"
+                        "no band for the {name}: give `{name}=…` ({unit}), or a single number for all"
                     ));
                 }
             }
@@ -104,14 +106,14 @@ mod tests {
     #[test]
     fn what_is_no_band_is_refused_with_its_reason() {
         for (text, why) in [
-            ("", "`` is no band"),
-            ("-1", "`-1` is no band"),
-            ("nan", "`nan` is no band"),
-            ("inf", "`inf` is no band"),
+            ("", "`` is not a valid band"),
+            ("-1", "`-1` is not a valid band"),
+            ("nan", "`nan` is not a valid band"),
+            ("inf", "`inf` is not a valid band"),
             ("1,2", "two numbers"),
             ("1,angle=1,angle=2", "`angle` has two bands"),
-            ("position=1", "the orientation has no band"),
-            ("position=x", "`x` is no band"),
+            ("position=1", "no band for the orientation"),
+            ("position=x", "`x` is not a valid band"),
         ] {
             let refused = text.parse::<BandList>().unwrap_err().to_string();
             assert!(refused.contains(why), "{text}: {refused}");

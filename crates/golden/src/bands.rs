@@ -1,16 +1,16 @@
-//! Bands: how far a run may be from the golden one.
+//! Bands: allowed distance of a run from the golden one.
 //!
-//! `quantity or name => largest distance`. A body's position, velocity and angular velocity are off by the
-//! length of the difference, its orientation by the angle of the turn between the two.
+//! `quantity or name => largest distance`. The distance of a body's position, velocity and angular velocity is the
+//! length of the difference, that of its orientation the angle of the rotation between the two.
 
 use crate::component::Quantity;
 
-/// The largest distances that are accepted, one for each quantity of a body and each recorded value.
+/// The largest accepted distances, one for each quantity of a body and each recorded value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bands<'a> {
     /// \[m\] of a body's centre of mass.
     pub position: f64,
-    /// \[rad\] of the turn between two orientations.
+    /// \[rad\] of the rotation between two orientations.
     pub orientation: f64,
     /// \[m/s\].
     pub velocity: f64,
@@ -19,12 +19,12 @@ pub struct Bands<'a> {
     /// \[unit of each\] of recorded values by name; the name of a read-out is that of all its
     /// columns.
     pub values: &'a [(&'a str, f64)],
-    /// \[unit of each\] of values that are not named; without it every one must be.
+    /// \[unit of each\] of values not named; without it every value must be named.
     pub others: Option<f64>,
 }
 
 impl<'a> Bands<'a> {
-    /// The same number for everything, in SI units.
+    /// The same number for all, in SI units.
     #[must_use]
     pub const fn all(band: f64) -> Self {
         Self {
@@ -37,7 +37,7 @@ impl<'a> Bands<'a> {
         }
     }
 
-    /// That of a quantity.
+    /// The band of a quantity.
     #[must_use]
     pub const fn of(&self, quantity: Quantity) -> f64 {
         match quantity {
@@ -48,14 +48,14 @@ impl<'a> Bands<'a> {
         }
     }
 
-    /// That of a value.
+    /// The band of a value.
     #[must_use]
     pub fn of_value(&self, name: &str) -> Option<f64> {
         let named = self.values.iter().find(|(of, _)| is_of(name, of));
         named.map(|(_, band)| *band).or(self.others)
     }
 
-    /// The first name with a band that is that of none of these values.
+    /// The first name with a band that matches none of these values.
     #[must_use]
     pub fn unknown(&self, values: &[&str]) -> Option<&'a str> {
         let known = |of: &str| values.iter().any(|name| is_of(name, of));
@@ -63,7 +63,7 @@ impl<'a> Bands<'a> {
     }
 }
 
-/// Whether a column is that of a read-out, or one of its columns.
+/// Whether a column belongs to a read-out.
 fn is_of(column: &str, readout: &str) -> bool {
     column == readout || column.strip_prefix(readout).is_some_and(|end| end.starts_with('.'))
 }
@@ -73,10 +73,9 @@ fn is_of(column: &str, readout: &str) -> bool {
 pub enum Tolerance<'a> {
     /// Bit for bit.
     Bits,
-    /// Within bands, in the golden run's own scheme and precision: where what drives the plant does not
-    /// have the same bits everywhere.
+    /// Within bands, in the golden run's scheme and precision: for plants whose driver is not bit-identical everywhere.
     Within(Bands<'a>),
-    /// Within bands, in whatever scheme and precision.
+    /// Within bands, in any scheme and precision.
     AnyMethod(Bands<'a>),
 }
 

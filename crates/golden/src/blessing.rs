@@ -1,7 +1,7 @@
 //! Consent to a new golden file: given in the environment, never on a build server.
 //!
-//! `DBD_BLESS, CI => whether files are written`. The variable is the one that blesses what else is golden
-//! here, with a word of its own: a command that writes tables does not write trajectories in passing.
+//! `DBD_BLESS, CI => whether files are written`. The same variable blesses other golden data, with another value: a
+//! command that writes tables does not also write trajectories.
 
 use std::string::String;
 
@@ -9,7 +9,7 @@ use std::string::String;
 pub const VARIABLE: &str = "DBD_BLESS";
 /// Its value.
 pub const WORD: &str = "golden";
-/// The variable by which build servers say what they are.
+/// The variable by which build servers identify themselves.
 const SERVER: &str = "CI";
 
 /// Whether golden files are written.
@@ -20,13 +20,12 @@ pub enum Blessing {
     No,
     /// They are written.
     Yes,
-    /// It was asked for where nobody would see it.
+    /// Writing was requested on a build server.
     Refused,
 }
 
 impl Blessing {
-    /// As the environment says: `DBD_BLESS=golden`; refused where `CI` is set and neither empty nor `0`
-    /// nor `false`.
+    /// From the environment: `DBD_BLESS=golden`; refused if `CI` is set and neither empty nor `0` nor `false`.
     #[must_use]
     pub fn from_environment() -> Self {
         Self::from_variables(|name| {
@@ -34,7 +33,7 @@ impl Blessing {
         })
     }
 
-    /// As variables of whatever source say.
+    /// From variables of any source.
     pub fn from_variables(variable: impl Fn(&str) -> Option<String>) -> Self {
         if variable(VARIABLE).is_none_or(|value| value != WORD) {
             return Self::No;

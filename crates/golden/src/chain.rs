@@ -1,7 +1,7 @@
-//! The hash chain: each line's hash folds in those before it.
+//! The hash chain: each line's hash includes those of all previous lines.
 //!
-//! `lines => FNV-1a 64 so far`. A line that is edited, lost or moved is found at its place, or at the
-//! next one. Line breaks count as one byte each, however an editor or a checkout writes them.
+//! `lines => FNV-1a 64 so far`. A line that is edited, lost or moved is detected at its position or at the next line. A
+//! line break counts as one byte, however an editor or a checkout writes it.
 
 use core::fmt::{self, Write};
 
@@ -21,7 +21,7 @@ impl Chain {
     }
 }
 
-/// Writes to a sink and adds what passes to the chain.
+/// Writes to a sink and adds the text to the chain.
 pub(crate) struct Chained<'w, W> {
     pub(crate) to: &'w mut W,
     pub(crate) chain: &'w mut Chain,

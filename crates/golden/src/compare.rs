@@ -1,7 +1,7 @@
-//! Compares a run with a golden file, sample by sample, as it goes.
+//! Compares a run with a golden file, sample by sample, while it runs.
 //!
-//! `(golden, head, tolerance), moments, values => nothing, or the first difference`. Nothing is allocated:
-//! a firmware compares with a file that lies in its flash.
+//! `(golden, head, tolerance), moments, values => nothing, or the first difference`. Nothing is allocated: firmware can
+//! compare with a file in its flash.
 
 use crate::bands::{Bands, Tolerance};
 use crate::component::{Component, ENDS, Quantity};
@@ -11,7 +11,7 @@ use crate::number::{Digits, same};
 use crate::subject::{BodyNumbers, Moment};
 use crate::text::{Expected, Golden, Row, Rows};
 
-/// A comparison under way.
+/// A comparison in progress.
 #[derive(Clone, Debug)]
 pub struct Comparison<'a> {
     golden: Golden<'a>,
@@ -23,12 +23,12 @@ pub struct Comparison<'a> {
     summary: Summary<&'a str>,
 }
 
-/// What a comparison saw.
+/// The result of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary<N> {
     /// Samples compared.
     pub samples: u64,
-    /// How far the run was from the golden one at most: nowhere, bit for bit.
+    /// Largest distances of the run from the golden one; none if compared bit for bit.
     pub furthest: Furthest<N>,
 }
 
@@ -41,11 +41,11 @@ impl<N> Summary<N> {
 }
 
 impl<'a> Comparison<'a> {
-    /// Begins with the first sample; the head must be the file's.
+    /// Begins a comparison at the first sample; the head must match the file's.
     ///
     /// # Errors
-    /// A [`Mismatch`] that names what is another: scene, model, scheme, precision, step, interval or
-    /// column; or a value without a band, a band without a value.
+    /// A [`Mismatch`] that names what differs: scene, model, scheme, precision, step, interval or column; or a value
+    /// without a band, a band without a value.
     pub fn new(
         golden: Golden<'a>,
         head: Head<'a>,
@@ -73,7 +73,7 @@ impl<'a> Comparison<'a> {
         self.next.map(|row| row.step)
     }
 
-    /// Compares a sample if one is due; whether one was.
+    /// Compares a sample if one is due; returns whether one was.
     ///
     /// # Errors
     /// As [`Self::sample`].
@@ -163,7 +163,7 @@ impl<'a> Comparison<'a> {
     /// Ends a comparison after the golden run's last sample.
     ///
     /// # Errors
-    /// [`Mismatch::Sample`] where the golden run has more.
+    /// [`Mismatch::Sample`] if the golden run has more samples.
     pub fn finish(self) -> Result<Summary<&'a str>, Mismatch<&'a str>> {
         match self.due() {
             Some(due) => Err(Mismatch::Sample { golden: Some(due), present: None }),
@@ -209,7 +209,7 @@ fn compare_columns<'a>(golden: &Golden<'a>, head: &Head<'a>) -> Result<(), Misma
     let header = golden.header.strip_suffix("\tchain").unwrap_or_default();
     let mut columns = head.columns();
     let mut names = header.split('\t');
-    // Step and state stand before them.
+    // After the columns step and state.
     for number in 3.. {
         let (name, column) = (names.next(), columns.next());
         let equal = match (name, column) {
@@ -228,7 +228,7 @@ fn compare_columns<'a>(golden: &Golden<'a>, head: &Head<'a>) -> Result<(), Misma
     Ok(())
 }
 
-/// What was found of a sample.
+/// The findings on a sample.
 struct Tally<'t, 'a> {
     golden: &'t Golden<'a>,
     bands: Option<&'t Bands<'a>>,
@@ -239,7 +239,7 @@ struct Tally<'t, 'a> {
     found: Option<Found<'a>>,
 }
 
-/// What is to be reported.
+/// The difference to report.
 #[derive(Clone, Copy)]
 struct Found<'a> {
     component: Component<&'a str>,
@@ -254,7 +254,7 @@ impl<'t, 'a> Tally<'t, 'a> {
         Self { golden, bands, bodies: 0, values: 0, differing: 0, furthest, found: None }
     }
 
-    /// A number at its place in a row.
+    /// A number with its index in a row.
     fn number(&mut self, at: (usize, Component<&'a str>), golden: f64, present: f64) {
         if same(golden, present) {
             return;
@@ -275,7 +275,7 @@ impl<'t, 'a> Tally<'t, 'a> {
             Component::Turns { .. } => None,
             _ => {
                 let digits = self.golden.digits(place);
-                // Of another precision is counted in numbers of the golden run's.
+                // For another precision, counted in numbers of the golden run's precision.
                 let rounded = beyond.is_some() && digits == Digits::Single;
                 let present = if rounded { f64::from(pair[1] as f32) } else { pair[1] };
                 digits.ulps(pair[0], present)
@@ -323,7 +323,7 @@ impl<'t, 'a> Tally<'t, 'a> {
         }
     }
 
-    /// Keeps what is furthest beyond its band.
+    /// Keeps the quantity furthest beyond its band.
     fn band(
         &mut self,
         at: (usize, Component<&'a str>),

@@ -1,7 +1,7 @@
-//! What a number of a sample is: of which body or read-out, which quantity, in which unit.
+//! Meaning of a number of a sample: body or read-out, quantity, unit.
 //!
-//! `column => name, unit`. A name is of any text, so that the same words serve on a target, where names
-//! are borrowed, and on a PC, where they are kept.
+//! `column => name, unit`. The text type is generic, so that the same code serves a target, where names are borrowed,
+//! and a PC, where they are owned.
 
 use core::fmt::{self, Display};
 
@@ -9,7 +9,7 @@ use core::fmt::{self, Display};
 pub(crate) const ENDS: [&str; 13] =
     [".x", ".y", ".z", ".qw", ".qx", ".qy", ".qz", ".vx", ".vy", ".vz", ".wx", ".wy", ".wz"];
 
-/// A quantity of a body, for which a band is stated.
+/// A quantity of a body, which has a band.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// \[m\].
@@ -27,7 +27,7 @@ impl Quantity {
     pub const ALL: [Quantity; 4] =
         [Quantity::Position, Quantity::Orientation, Quantity::Velocity, Quantity::AngularVelocity];
 
-    /// That of one of the 13 columns of a body.
+    /// The quantity of one of the 13 columns of a body.
     #[must_use]
     pub const fn of_column(column: usize) -> Self {
         match column {
@@ -92,12 +92,12 @@ pub enum Component<N> {
         /// Its name.
         name: N,
     },
-    /// A stored word that no column shows.
+    /// A stored word without a column.
     State,
 }
 
 impl<N> Component<N> {
-    /// Its quantity, where it is a body's.
+    /// Its quantity, if it belongs to a body.
     #[must_use]
     pub fn quantity(&self) -> Option<Quantity> {
         match self {
@@ -106,7 +106,7 @@ impl<N> Component<N> {
         }
     }
 
-    /// The same with another text for its name.
+    /// The same with another text type for its name.
     pub fn map<M>(self, with: &mut impl FnMut(N) -> M) -> Component<M> {
         match self {
             Component::Body { body, column } => Component::Body { body: with(body), column },

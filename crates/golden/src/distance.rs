@@ -1,4 +1,4 @@
-//! How far one body is from another in a quantity.
+//! Distance of two bodies in a quantity.
 //!
 //! `two rows of numbers => m, rad, m/s or rad/s`.
 
@@ -6,8 +6,8 @@ use crate::component::Quantity;
 use crate::subject::BodyNumbers;
 
 impl Quantity {
-    /// How far apart two bodies are in this quantity, in its [unit](Self::unit): the length of the difference, for
-    /// orientations the angle \[rad\] of the turn between the two, whichever the signs of their quaternions.
+    /// Distance of two bodies in this quantity, in its [unit](Self::unit): the length of the difference, for
+    /// orientations the angle \[rad\] of the rotation between the two, regardless of the signs of their quaternions.
     #[must_use]
     pub fn distance(self, a: &BodyNumbers, b: &BodyNumbers) -> f64 {
         let columns = self.columns();
@@ -23,12 +23,12 @@ fn length(components: impl Iterator<Item = f64>) -> f64 {
     libm::sqrt(components.map(|component| component * component).sum())
 }
 
-/// \[rad\] the angle of the turn between two unit quaternions, whichever their signs.
+/// \[rad\] the angle of the rotation between two unit quaternions, regardless of their signs.
 fn turn(a: &[f64], b: &[f64]) -> f64 {
     let apart = length(a.iter().zip(b).map(|(a, b)| b - a));
     let opposite = length(a.iter().zip(b).map(|(a, b)| b + a));
     let chord = if opposite < apart { opposite } else { apart };
-    // The sine of a quarter of the turn; no NaN is lost on the way.
+    // The sine of a quarter of the angle; a NaN is propagated.
     let sine = 0.5 * chord;
     4.0 * libm::asin(if sine > 1.0 { 1.0 } else { sine })
 }

@@ -1,8 +1,7 @@
-//! Golden files: compared, or written where that is asked for.
+//! Golden files: compared, or written on request.
 //!
-//! `(path, recording, tolerance, blessing) => verdict`. A run that differs is written beside the golden file,
-//! whole or not at all. Nothing is written unasked under the golden name, and nothing that is no golden
-//! file is replaced.
+//! `(path, recording, tolerance, blessing) => verdict`. A run that differs is written next to the golden file,
+//! atomically. The golden file is written only on request, and a file that is not a golden file is never replaced.
 
 use std::borrow::ToOwned as _;
 use std::boxed::Box;
@@ -19,7 +18,7 @@ use crate::mismatch::{Damage, Mismatch};
 use crate::recording::Recording;
 use crate::text::Golden;
 
-/// \[byte\] no golden file has this size.
+/// \[byte\] limit of the size of a golden file.
 const MAX_BYTES: u64 = 1 << 30;
 
 /// A golden file by its path.
@@ -37,7 +36,7 @@ pub enum Verdict {
     Blessed {
         /// The file.
         path: PathBuf,
-        /// How the file before differed; `None` where there was none or it was equal.
+        /// How the previous file differed; `None` if there was none or it was equal.
         before: Option<Box<Mismatch<String>>>,
     },
 }
@@ -52,7 +51,7 @@ impl fmt::Display for Verdict {
                 write!(f, "{samples} samples within their bands{furthest}")
             }
             Verdict::Blessed { path, before } => {
-                write!(f, "blessed: {} is written anew", path.display())?;
+                write!(f, "blessed: {} is rewritten", path.display())?;
                 before.as_ref().map_or(Ok(()), |before| write!(f, "; before: {before}"))
             }
         }
@@ -76,15 +75,15 @@ pub enum GoldenError {
     Unreadable {
         /// Its path.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
-    /// It does not go with the run: damaged, or of another version, scene, scheme, precision or step.
-    #[error("{} does not go with this run: {mismatch}", path.display())]
+    /// It does not match the run: damaged, or of another version, scene, scheme, precision or step.
+    #[error("{} does not match this run: {mismatch}", path.display())]
     Unlike {
         /// Its path.
         path: PathBuf,
-        /// What is another.
+        /// What differs.
         mismatch: Box<Mismatch<String>>,
     },
     /// The run differs.
@@ -94,15 +93,15 @@ pub enum GoldenError {
         path: PathBuf,
         /// How.
         mismatch: Box<Mismatch<String>>,
-        /// Whether the run is of the file's own method, so that it may become the golden one.
+        /// Whether the run uses the file's method, so that it may become the golden one.
         own: bool,
         /// Where the run was written, or why it was not.
         new: Result<PathBuf, String>,
     },
-    /// Files are not blessed where nobody looks at them.
+    /// Files are not blessed on a build server.
     #[error(
-        "{} is not written: {VARIABLE}={WORD} does not go with CI; bless it where the difference can be \
-         looked at, and commit it", path.display()
+        "{} is not written: {VARIABLE}={WORD} is not allowed in CI; bless it where the difference can be \
+         reviewed, and commit it", path.display()
     )]
     OnServer {
         /// The file's path.
@@ -113,16 +112,16 @@ pub enum GoldenError {
     Unwritable {
         /// Its path.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
 }
 
-/// What is said of the file that a run left.
+/// The message on the file that a run wrote.
 fn left(new: &Result<PathBuf, String>, own: bool) -> String {
     let path = match new {
         Ok(path) => path.display(),
-        Err(reason) => return format!("and the run could not be written: {reason}"),
+        Err(reason) => return format!("the run cannot be written: {reason}"),
     };
     match own {
         true => format!(
@@ -134,33 +133,33 @@ fn left(new: &Result<PathBuf, String>, own: bool) -> String {
 }
 
 impl fmt::Debug for GoldenError {
-    /// In words: what a test shows that ends with an error.
+    /// The message, which a test that returns an error shows.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
     }
 }
 
-/// A golden file that was looked at before its run.
+/// A golden file that was checked before its run.
 #[derive(Clone, Debug)]
 pub struct Opened {
     path: PathBuf,
-    /// What it holds, where it is there.
+    /// Its contents, if it exists.
     text: Option<String>,
     bless: bool,
 }
 
 impl GoldenFile {
-    /// The file at a path; in a test relative to the package's folder.
+    /// The file at a path, which in a test is relative to the package's folder.
     #[must_use]
     pub fn new(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into() }
     }
 
-    /// Compares a run with the file, or writes the file where the environment says so
+    /// Compares a run with the file, or writes the file if the environment requests it
     /// ([`Blessing::from_environment`]).
     ///
     /// # Errors
-    /// A [`GoldenError`] in words for people.
+    /// A [`GoldenError`].
     pub fn check(
         &self,
         recording: &Recording,
@@ -169,7 +168,7 @@ impl GoldenFile {
         self.open(recording, tolerance, Blessing::from_environment())?.check(recording, tolerance)
     }
 
-    /// [`Self::check`] for a test: says so where the file was written.
+    /// [`Self::check`] for a test: prints a note if the file was written.
     ///
     /// # Panics
     /// With the message of the [`GoldenError`].
@@ -182,10 +181,10 @@ impl GoldenFile {
         }
     }
 
-    /// Reads the file and compares its head with that of a recording, which may be without samples yet: so
-    /// that a run that has nothing to be compared with need not begin.
+    /// Reads the file and compares its head with that of a recording, which may still be without samples, so that a
+    /// mismatch is found before the run.
     ///
-    /// With [`Tolerance::AnyMethod`] a file is never written: it is that of another run.
+    /// With [`Tolerance::AnyMethod`] a file is never written: it belongs to another run.
     ///
     /// # Errors
     /// [`GoldenError::OnServer`], [`GoldenError::Missing`], [`GoldenError::Unreadable`],
@@ -235,7 +234,7 @@ fn owned(mismatch: Mismatch<&str>) -> Box<Mismatch<String>> {
     Box::new(mismatch.map(|name| name.to_string()))
 }
 
-/// Whether a file is none of ours, which is never replaced.
+/// Whether a file is not a golden file, which is never replaced.
 fn is_foreign(mismatch: &Mismatch<String>) -> bool {
     matches!(mismatch, Mismatch::Damaged { damage: Damage::Foreign | Damage::Text, .. })
 }
@@ -244,15 +243,15 @@ impl Opened {
     /// Compares the whole run, or writes the file.
     ///
     /// # Errors
-    /// [`GoldenError::Different`], [`GoldenError::Unwritable`]; [`GoldenError::Unlike`] where the file
-    /// does not go with the run after all.
+    /// [`GoldenError::Different`], [`GoldenError::Unwritable`]; [`GoldenError::Unlike`] if the file does not match the
+    /// run after all.
     pub fn check(
         self,
         recording: &Recording,
         tolerance: &Tolerance<'_>,
     ) -> Result<Verdict, GoldenError> {
         let Self { path, text, bless } = self;
-        // A run by another method leaves a file of its own: it may be compared at the same time.
+        // A run by another method writes a separate file: it may be compared at the same time.
         let own = !matches!(tolerance, Tolerance::AnyMethod(_));
         let ending = if own {
             ".new".to_owned()
@@ -264,7 +263,7 @@ impl Opened {
         let compared = text.map(|text| recording.compare(&text, tolerance));
         match compared {
             Some(Ok(summary)) if !bless => {
-                // What an earlier run left says nothing any more.
+                // The file of an earlier run is obsolete.
                 let _ = fs::remove_file(new);
                 Ok(Verdict::Same(summary))
             }
@@ -293,10 +292,13 @@ fn beside(path: &Path, ending: &str) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// Writes a file, whole or not at all; its folder is made where there is none.
+/// Writes a file atomically; creates its folder if necessary.
 fn put(path: &Path, text: &str) -> io::Result<()> {
     let name = path.file_name().and_then(|name| name.to_str()).ok_or_else(|| {
-        io::Error::new(io::ErrorKind::InvalidInput, "the path ends with no name in UTF-8")
+        io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "the path does not end with a file name in UTF-8",
+        )
     })?;
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

@@ -1,6 +1,6 @@
-//! The head of a golden file: what the samples belong to.
+//! The head of a golden file: identification of the run.
 //!
-//! `scene, plant, names => lines`. One key per line, so that a change of one shows as one line.
+//! `scene, plant, names => lines`. One key per line, so that one change is one line in a diff.
 
 use core::fmt::{self, Display, Write};
 
@@ -10,17 +10,17 @@ use crate::number::Digits;
 /// The format that this crate writes and reads.
 pub const VERSION: u32 = 1;
 
-/// How the first line begins, before the version.
+/// Start of the first line, before the version.
 pub(crate) const FIRST: &str = "# dbd golden ";
 
-/// A scheme as its bits depend on it.
+/// Properties of a scheme that determine the bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SchemeTag<N> {
     /// Its name, e.g. `leapfrog`.
     pub name: N,
-    /// How its dampers act: `sweeps`, `joint-wise` or `explicit`.
+    /// Its damping: `sweeps`, `joint-wise` or `explicit`.
     pub damping: N,
-    /// Force evaluations per step, which tell its Newton iterations.
+    /// Force evaluations per step, which depend on its Newton iterations.
     pub evaluations: u32,
 }
 
@@ -31,7 +31,7 @@ impl<N: Display> Display for SchemeTag<N> {
     }
 }
 
-/// A precision as its bits depend on it.
+/// Properties of a precision that determine the bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrecisionTag<N> {
     /// Its name, e.g. `f32`.
@@ -46,7 +46,7 @@ impl<N: Display> Display for PrecisionTag<N> {
     }
 }
 
-/// How many digits numbers have.
+/// Number of digits of each quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Numerals {
     /// Of a position.
@@ -74,26 +74,26 @@ impl Numerals {
     }
 }
 
-/// What a plant's bits belong to.
+/// Identity of a plant, which determines its bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Identity<'a> {
     /// The scheme.
     pub scheme: SchemeTag<&'a str>,
     /// The precision.
     pub precision: PrecisionTag<&'a str>,
-    /// How many digits its numbers have.
+    /// Number of digits of its numbers.
     pub numerals: Numerals,
     /// \[s\] the step as given.
     pub step_size: f64,
     /// Hash of the model, the same in every precision: [`dbd_kernel::fingerprint::model_hash`].
     pub model: u64,
-    /// How many bodies it has.
+    /// Number of bodies.
     pub bodies: usize,
-    /// How many torsion springs, whose turns are counted.
+    /// Number of torsion springs, whose revolutions are counted.
     pub turns: usize,
 }
 
-/// What is recorded: a plant of a scene, sampled, with names.
+/// Description of a recording: scene, plant, sampling interval, names.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Head<'a> {
     /// The scene's name.
@@ -104,12 +104,12 @@ pub struct Head<'a> {
     pub every: u64,
     /// The names of the bodies, in the model's order.
     pub bodies: &'a [&'a str],
-    /// The names of the further numbers of a sample: read-outs, inputs, what a controller holds.
+    /// The names of the further numbers of a sample: read-outs, inputs, controller states.
     pub values: &'a [&'a str],
 }
 
 impl<'a> Head<'a> {
-    /// The columns between those of step and hash and that of the chain.
+    /// The columns between step and hash, and the chain.
     pub(crate) fn columns(&self) -> impl Iterator<Item = Component<&'a str>> {
         let turns = self.identity.turns;
         let bodies = self.bodies.iter().flat_map(|body| {
@@ -119,13 +119,13 @@ impl<'a> Head<'a> {
         bodies.chain((0..turns).map(|spring| Component::Turns { spring })).chain(values)
     }
 
-    /// A name that no line can hold: an empty one, or one with a control character.
+    /// The first invalid name: empty or with a control character.
     pub(crate) fn unfit_name(&self) -> Option<&'a str> {
         let names = self.bodies.iter().chain(self.values).copied().chain([self.scene]);
         names.into_iter().find(|name| name.trim().is_empty() || name.contains(char::is_control))
     }
 
-    /// Writes the head, the line of column names included.
+    /// Writes the head, including the line of column names.
     pub(crate) fn write(&self, to: &mut impl Write) -> fmt::Result {
         let Identity { scheme, precision, numerals, step_size, model, bodies, turns } =
             self.identity;

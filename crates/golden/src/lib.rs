@@ -1,21 +1,20 @@
-//! Golden trajectories: a run recorded once, with which every later one is compared.
+//! Golden trajectories: a run recorded once, against which later runs are compared.
 //!
-//! `plant => samples as text; text, plant => equal, within bands, or the first difference`. The modules
-//! in the order in which they stand on each other:
+//! `plant => samples as text; text, plant => equal, within bands, or the first difference`. The modules in dependency
+//! order:
 //!
-//! - `number`, `component`, [`head`], `chain`: what lines are made of.
-//! - [`subject`]: what is recorded.
-//! - `distance`: how far two bodies are apart.
-//! - [`record`]: a run becomes lines.
-//! - [`mismatch`]: what can be wrong, with both values.
-//! - [`mod@text`]: a file's lines become numbers, or damage is named.
-//! - [`bands`]: how far a run may be off.
-//! - [`compare`]: a run beside a file.
-//! - [`plants`], [`recording`]: plants by name; runs in memory (these and what follows: feature `std`).
-//! - [`blessing`], [`band_list`], [`file`](mod@file): consent to a new file, bands as text, files.
+//! - `number`, `component`, [`head`], `chain`: parts of a line.
+//! - [`subject`]: recorded plants.
+//! - `distance`: distance of two bodies.
+//! - [`record`]: writes a run as lines.
+//! - [`mismatch`]: errors and differences, with both values.
+//! - [`mod@text`]: reads a file, or names its damage.
+//! - [`bands`]: allowed distances.
+//! - [`compare`]: compares a run with a file.
+//! - [`plants`], [`recording`]: plants by name; runs in memory (these and the following: feature `std`).
+//! - [`blessing`], [`band_list`], [`file`](mod@file): permission to write a file, bands as text, files.
 //!
-//! A test, blessing and what bits promise: `docs/golden.md` in the repository. Without `std`, as in a
-//! firmware:
+//! Tests, blessing and guarantees on bits: `docs/golden.md` in the repository. Without `std`, as in firmware:
 //!
 //! ```
 //! use dbd_golden::{Comparison, Golden, Head, Recorder, Subject as _, Tolerance};

@@ -1,6 +1,6 @@
-//! What is wrong with a golden file, or with a run beside it.
+//! Errors of a golden file, and differences of a run from it.
 //!
-//! `what, where, both values => words`. Allocation-free where names are borrowed.
+//! `kind, position, both values => message`. Allocation-free with borrowed names.
 
 use core::fmt::{self, Display};
 
@@ -10,22 +10,22 @@ use crate::head::{PrecisionTag, SchemeTag, VERSION};
 /// How a file is damaged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Damage {
-    /// It does not begin as a golden file does.
+    /// It does not start like a golden file.
     Foreign,
     /// It is not UTF-8.
     Text,
-    /// This line of the head is missing or holds something else.
+    /// This header line is missing or has other contents.
     Head(&'static str),
-    /// The line has so many fields, not as many as there are columns.
+    /// The number of fields of the line differs from the number of columns.
     Fields {
         /// Fields found.
         found: usize,
         /// Columns.
         columns: usize,
     },
-    /// This column, from 1, holds no number.
+    /// This column, from 1, is not a number.
     Number(usize),
-    /// Its step does not come after that of the line before.
+    /// Its step is not after that of the previous line.
     Order,
     /// It, or a line from this one on, was edited, or one between them is missing.
     Chain {
@@ -34,38 +34,38 @@ pub enum Damage {
     },
     /// The file ends without its last line.
     Cut,
-    /// The last line counts other samples than there are, or has another hash.
+    /// The last line has another number of samples or another hash.
     Count,
-    /// Something follows the last line.
+    /// There is text after the last line.
     Rest,
 }
 
 impl Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Damage::Foreign => f.write_str("this is no golden file"),
-            Damage::Text => f.write_str("this is not UTF-8"),
-            Damage::Head(key) => write!(f, "the head's line `{key}` is missing or damaged"),
+            Damage::Foreign => f.write_str("not a golden file"),
+            Damage::Text => f.write_str("not UTF-8"),
+            Damage::Head(key) => write!(f, "header line `{key}` is missing or damaged"),
             Damage::Fields { found, columns } => {
-                write!(f, "the line has {found} of {columns} columns: it was cut or edited")
+                write!(f, "the line has {found} of {columns} columns: it was truncated or edited")
             }
-            Damage::Number(column) => write!(f, "column {column} holds no number"),
-            Damage::Order => f.write_str("its step does not come after that of the line before"),
+            Damage::Number(column) => write!(f, "column {column} is not a number"),
+            Damage::Order => f.write_str("its step is not after that of the previous line"),
             Damage::Chain { from } => write!(
                 f,
-                "the hash does not follow from the lines before: this line, or one from line {from} \
+                "the hash does not match the previous lines: this line, or one from line {from} \
                  on, was edited or is missing"
             ),
-            Damage::Cut => f.write_str("the file is cut: its last line is missing"),
+            Damage::Cut => f.write_str("the file is truncated: its last line is missing"),
             Damage::Count => f.write_str(
-                "the last line does not go with those before: one is missing, or it was edited",
+                "the last line does not match the previous ones: one is missing, or it was edited",
             ),
-            Damage::Rest => f.write_str("something follows the last line"),
+            Damage::Rest => f.write_str("there is text after the last line"),
         }
     }
 }
 
-/// Why a run and a golden file do not go together, or differ. `N` is the text of names.
+/// Why a run and a golden file do not match, or differ. `N` is the text type of names.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mismatch<N> {
     /// The file is damaged.
@@ -124,9 +124,9 @@ pub enum Mismatch<N> {
         /// Steps, the run's.
         present: u64,
     },
-    /// It has another column at this place, or none where the run has one.
+    /// It has another column at this index, or none where the run has one.
     Column {
-        /// The place, from 1.
+        /// The index, from 1.
         number: usize,
         /// The file's.
         golden: Option<N>,
@@ -140,15 +140,15 @@ pub enum Mismatch<N> {
         /// The run's.
         present: Option<u64>,
     },
-    /// A band is stated for a value that is not recorded.
+    /// A band is given for a value that is not recorded.
     UnknownBand(N),
-    /// No band is stated for a value.
+    /// No band is given for a value.
     NoBand(N),
-    /// Names and numbers of the run do not fit: of bodies, or of values.
+    /// The numbers of names and of bodies or values differ.
     Count {
         /// Names.
         names: usize,
-        /// What there is.
+        /// Bodies or values.
         given: usize,
     },
     /// The run differs.
@@ -160,16 +160,16 @@ pub enum Mismatch<N> {
 pub struct Difference<N> {
     /// The step of the first sample that differs.
     pub step: u64,
-    /// The step of the sample before, where there is one: the first step that differs comes after it.
+    /// The step of the previous sample, if any: the first step that differs is after it.
     pub equal: Option<u64>,
-    /// Bit for bit: the first number that differs. Within bands: the one furthest off in the quantity
+    /// Bit for bit: the first number that differs. Within bands: the number with the largest difference in the quantity
     /// that is furthest beyond its band.
     pub component: Component<N>,
     /// \[unit of the component\] its golden value.
     pub golden: f64,
     /// \[unit of the component\] its present value.
     pub present: f64,
-    /// How many numbers of the precision lie between them; none from a NaN.
+    /// Distance in ULP of the precision; none for a NaN.
     pub ulps: Option<u64>,
     /// \[unit of the quantity\] within bands: its distance, and its band.
     pub beyond: Option<(f64, f64)>,
@@ -177,11 +177,11 @@ pub struct Difference<N> {
     pub differing: usize,
     /// Numbers of a sample.
     pub numbers: usize,
-    /// How far each quantity is at this sample.
+    /// The distance of each quantity at this sample.
     pub furthest: Furthest<N>,
 }
 
-/// The largest distances of quantities, and the bodies that they are of.
+/// The largest distance of each quantity, with its body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Furthest<N> {
     /// In the order of [`Quantity::ALL`]; none where all are equal.
@@ -197,13 +197,13 @@ impl<N> Default for Furthest<N> {
 }
 
 impl<N> Furthest<N> {
-    /// The same with another text for names.
+    /// The same with another text type for names.
     pub fn map<M>(self, with: &mut impl FnMut(N) -> M) -> Furthest<M> {
         let mut one = |far: Option<(f64, N)>| far.map(|(distance, name)| (distance, with(name)));
         Furthest { quantities: self.quantities.map(&mut one), value: one(self.value) }
     }
 
-    /// Takes a distance, if it is the largest so far. What is no number is larger than any.
+    /// Stores a distance if it is the largest so far. NaN is larger than any number.
     pub(crate) fn take(place: &mut Option<(f64, N)>, distance: f64, name: N) {
         let largest = place.as_ref().is_none_or(|(most, _)| {
             let within = distance <= *most;
@@ -222,7 +222,7 @@ impl<N> Mismatch<N> {
         matches!(self, Mismatch::Difference(_) | Mismatch::Sample { .. })
     }
 
-    /// The same with another text for names.
+    /// The same with another text type for names.
     pub fn map<M>(self, mut with: impl FnMut(N) -> M) -> Mismatch<M> {
         let with = &mut with;
         match self {
@@ -281,28 +281,28 @@ impl<N: Display> Display for Mismatch<N> {
         match self {
             Mismatch::Damaged { line, damage } => write!(f, "line {line}: {damage}"),
             Mismatch::Version { golden, present } => {
-                write!(f, "it is of version {golden} of the format; known is {present}")
+                write!(f, "it has format version {golden}; expected {present}")
             }
             Mismatch::Scene { golden, present } => {
                 write!(f, "it is of another scene: `{golden}`; the run is of `{present}`")
             }
             Mismatch::Model { golden, present } => write!(
                 f,
-                "it is of another model of the scene: hash {golden:016x}, the run's is {present:016x}; \
+                "it is of another model of the scene: hash {golden:016x}; the run has {present:016x}; \
                  a mass, a point, a stiffness or another constant has changed"
             ),
             Mismatch::Scheme { golden, present } => {
-                write!(f, "it is of another scheme: {golden}; the run's is {present}")
+                write!(f, "it used another scheme: {golden}; the run uses {present}")
             }
             Mismatch::Precision { golden, present } => {
-                write!(f, "it is of another precision: {golden}; the run's is {present}")
+                write!(f, "it used another precision: {golden}; the run uses {present}")
             }
             Mismatch::Step { golden, present } => {
-                write!(f, "it is of another step: {golden:?} s; the run's is {present:?} s")
+                write!(f, "it used another step: {golden:?} s; the run uses {present:?} s")
             }
             Mismatch::Every { golden, present } => write!(
                 f,
-                "it is sampled at another interval: every {golden} steps; the run every {present}"
+                "it used another sampling interval: every {golden} steps; the run uses {present}"
             ),
             Mismatch::Column { number, golden, present } => {
                 write!(f, "column {number} differs: ")?;
@@ -321,14 +321,14 @@ impl<N: Display> Display for Mismatch<N> {
                     None => f.write_str("the golden run has no further sample")?,
                 }
                 match present {
-                    Some(step) => write!(f, "; the run's at step {step}"),
-                    None => f.write_str("; the run has no further one"),
+                    Some(step) => write!(f, "; that of the run is at step {step}"),
+                    None => f.write_str("; the run has no further sample"),
                 }
             }
             Mismatch::UnknownBand(name) => {
-                write!(f, "a band is stated for `{name}`, which is not recorded")
+                write!(f, "a band is given for `{name}`, which is not recorded")
             }
-            Mismatch::NoBand(name) => write!(f, "no band is stated for `{name}`"),
+            Mismatch::NoBand(name) => write!(f, "no band is given for `{name}`"),
             Mismatch::Count { names, given } => {
                 write!(f, "{names} names for {given} bodies or values")
             }
@@ -395,5 +395,5 @@ impl<N: Display> Display for Furthest<N> {
     }
 }
 
-/// The version that this crate knows, for a message.
+/// The version of this crate, for a message.
 pub(crate) const KNOWN: u32 = VERSION;

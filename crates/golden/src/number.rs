@@ -1,16 +1,16 @@
-//! Numbers as a golden file has them: the shortest text that reads back to their bits.
+//! Numbers in a golden file: the shortest text that reads back to the same bits.
 //!
-//! `number => text => number`. A number of single precision is written and read as one, whatever type
-//! carries it; it is carried as the double that it is exactly widened to.
+//! `number => text => number`. A number of single precision is written and read as such, and stored as the double to
+//! which it is widened exactly.
 
 use core::fmt::{self, Write};
 
 use dbd_kernel::words::Word;
 
-/// Marks a double where singles are usual.
+/// Marks a double among singles.
 const DOUBLE: char = 'd';
 
-/// Which number a text stands for.
+/// The precision of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Digits {
     /// An f32.
@@ -32,7 +32,7 @@ impl Digits {
         [Digits::Single, Digits::Double].into_iter().find(|digits| digits.name() == name)
     }
 
-    /// Writes a number. Among singles a double that is none has a mark.
+    /// Writes a number. Among singles, a number without an exact single gets a mark.
     pub(crate) fn write(self, value: f64, to: &mut impl Write) -> fmt::Result {
         match self {
             Digits::Single if is_single(value) => write!(to, "{:?}", value as f32),
@@ -50,8 +50,8 @@ impl Digits {
         }
     }
 
-    /// How many numbers of this precision one is from the other; none from a NaN. Among singles a double that is
-    /// none is counted in doubles.
+    /// Distance of two numbers in ULP; none for a NaN. Among singles, a number without an exact single is counted in
+    /// doubles.
     #[must_use]
     pub fn ulps(self, a: f64, b: f64) -> Option<u64> {
         if a.is_nan() || b.is_nan() {
@@ -63,25 +63,25 @@ impl Digits {
                 true => (i64::from((value as f32).to_bits()), 1_i64 << 31),
                 false => (value.to_bits() as i64, i64::MIN),
             };
-            // Numbers below zero count downwards from it.
+            // Negative numbers count downwards from zero.
             if bits & sign != 0 { i128::from(bits ^ sign).wrapping_neg() } else { bits.into() }
         };
         u64::try_from((place(a) - place(b)).unsigned_abs()).ok()
     }
 }
 
-/// Whether single precision holds it.
+/// Whether it is exact in single precision.
 fn is_single(value: f64) -> bool {
     value.is_nan() || same(f64::from(value as f32), value)
 }
 
-/// Whether two numbers have the same bits; one NaN is like another.
+/// Whether two numbers have the same bits; all NaNs are equal.
 #[must_use]
 pub fn same(a: f64, b: f64) -> bool {
     Word::F64(a).bits() == Word::F64(b).bits()
 }
 
-/// A hash as text: 16 hexadecimal digits, small letters.
+/// A hash as text: 16 hexadecimal digits in lower case.
 pub(crate) fn read_hash(text: &str) -> Option<u64> {
     let digits = text.len() == 16 && text.bytes().all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'f'));
     if digits { u64::from_str_radix(text, 16).ok() } else { None }

@@ -14,9 +14,9 @@ use crate::head::{Identity, Numerals, PrecisionTag, SchemeTag};
 use crate::number::Digits;
 use crate::subject::{BodyNumbers, Moment, Subject, numbers};
 
-/// A plant whose read-outs a recording reads itself.
+/// A plant whose read-outs the recording reads.
 pub trait Readable: Subject {
-    /// What a read-out of the scene shows now, widened exactly.
+    /// The present value of a read-out of the scene, widened exactly.
     fn reading(&self, readout: &Readout<F64>) -> Option<Reading<f64>>;
 }
 

@@ -1,7 +1,7 @@
 //! Records a run as text, line by line: to a file's text, to a console.
 //!
-//! `(head, moments, values) => lines`. Nothing is allocated or kept but the chain, so that a firmware can
-//! print what a PC then compares.
+//! `(head, moments, values) => lines`. Nothing is allocated, and only the chain is stored, so that firmware can print a
+//! record which a PC compares.
 
 use core::fmt::{self, Display, Write};
 
@@ -12,27 +12,27 @@ use crate::subject::Moment;
 /// Why a sample could not be recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RecordError<N> {
-    /// The sink takes no more.
+    /// The sink accepts no more.
     Sink,
-    /// A name is empty or holds a control character.
+    /// A name is empty or contains a control character.
     Name(N),
-    /// There are other names than bodies.
+    /// The numbers of names and bodies differ.
     Bodies {
         /// Names of bodies.
         names: usize,
         /// Bodies of the plant.
         bodies: usize,
     },
-    /// A sample has other numbers than there are names.
+    /// The numbers of values and names differ.
     Values {
         /// Names of values.
         names: usize,
         /// Values given.
         given: usize,
     },
-    /// The sampling interval is no step.
+    /// The sampling interval is 0.
     Every,
-    /// The step is not beyond that of the last sample.
+    /// The step is not after that of the last sample.
     Order {
         /// The last sample's.
         last: u64,
@@ -43,13 +43,13 @@ pub enum RecordError<N> {
     Missed {
         /// The step.
         due: u64,
-        /// Where the plant is.
+        /// The step of the plant.
         step: u64,
     },
 }
 
 impl<N> RecordError<N> {
-    /// The same with another text for its name.
+    /// The same with another text type for its name.
     pub fn map<M>(self, with: impl FnOnce(N) -> M) -> RecordError<M> {
         match self {
             RecordError::Sink => RecordError::Sink,
@@ -68,7 +68,10 @@ impl<N: Display> Display for RecordError<N> {
         match self {
             RecordError::Sink => f.write_str("the record cannot be written"),
             RecordError::Name(name) => {
-                write!(f, "`{name}` cannot be a name: it is empty or holds a control character")
+                write!(
+                    f,
+                    "`{name}` is not a valid name: it is empty or contains a control character"
+                )
             }
             RecordError::Bodies { names, bodies } => {
                 write!(f, "{names} names are given for {bodies} bodies")
@@ -76,14 +79,14 @@ impl<N: Display> Display for RecordError<N> {
             RecordError::Values { names, given } => {
                 write!(f, "{given} values are given for {names} names")
             }
-            RecordError::Every => f.write_str("the sampling interval must be a step or more"),
+            RecordError::Every => f.write_str("the sampling interval must be at least one step"),
             RecordError::Order { last, step } => {
-                write!(f, "step {step} does not come after the last sample, step {last}")
+                write!(f, "step {step} is not after the last sample, step {last}")
             }
             RecordError::Missed { due, step } => write!(
                 f,
-                "a sample was due at step {due}, and the plant is at step {step}: look after every \
-                 advance, of steps that divide the sampling interval"
+                "a sample was due at step {due}, but the plant is at step {step}: sample after every \
+                 advance, by steps that divide the sampling interval"
             ),
         }
     }
@@ -101,7 +104,7 @@ pub struct Recorder<W> {
     last: Option<u64>,
 }
 
-/// What a row holds.
+/// Numbers of bodies, revolution counts and values in a row.
 #[derive(Clone, Copy, Debug)]
 struct Shape {
     bodies: usize,
@@ -115,7 +118,7 @@ impl<W: Write> Recorder<W> {
     /// Writes the head.
     ///
     /// # Errors
-    /// [`RecordError`] where names or interval do not fit, or the sink takes no more.
+    /// [`RecordError`] if names or interval are invalid, or the sink accepts no more.
     pub fn begin<'a>(sink: W, head: &Head<'a>) -> Result<Self, RecordError<&'a str>> {
         let identity = &head.identity;
         if head.bodies.len() != identity.bodies {
@@ -141,13 +144,13 @@ impl<W: Write> Recorder<W> {
         Ok(recorder)
     }
 
-    /// The step of the next sample; that of the first is the plant's own, whichever it is.
+    /// The step of the next sample; the first sample is at the plant's present step.
     #[must_use]
     pub fn due(&self) -> Option<u64> {
         self.last.map(|last| last.saturating_add(self.shape.every))
     }
 
-    /// Records a sample if one is due; whether one was.
+    /// Records a sample if one is due; returns whether one was.
     ///
     /// # Errors
     /// [`RecordError::Missed`] where the plant is beyond it, [`RecordError::Values`],
@@ -165,11 +168,11 @@ impl<W: Write> Recorder<W> {
         }
     }
 
-    /// Records a sample at whatever step it is: the last one may come early.
+    /// Records a sample at any step: the last one may be early.
     ///
     /// # Errors
-    /// [`RecordError::Order`] where it does not come after the last, [`RecordError::Bodies`],
-    /// [`RecordError::Values`], [`RecordError::Sink`].
+    /// [`RecordError::Order`] if it is not after the last, [`RecordError::Bodies`], [`RecordError::Values`],
+    /// [`RecordError::Sink`].
     pub fn sample(
         &mut self,
         moment: &(impl Moment + ?Sized),
@@ -197,7 +200,7 @@ impl<W: Write> Recorder<W> {
         Ok(())
     }
 
-    /// Writes the last line, without which a record is not whole, and returns the sink.
+    /// Writes the last line, which completes the record, and returns the sink.
     ///
     /// # Errors
     /// [`RecordError::Sink`].

@@ -1,7 +1,7 @@
-//! A run in memory: what a test records before it is compared.
+//! A run in memory, recorded by a test before it is compared.
 //!
-//! `(scene, plant, names), looks => samples, text`. The caller steps the plant, and its controller with
-//! it; the recording looks, and keeps a sample whenever one is due.
+//! `(scene, plant, names), plant states => samples, text`. The caller steps the plant and its controller; the recording
+//! stores a sample whenever one is due.
 
 use std::borrow::ToOwned as _;
 use std::boxed::Box;
@@ -29,7 +29,7 @@ pub enum RecordingError {
     /// A sample, or the head.
     #[error(transparent)]
     Record(RecordError<String>),
-    /// The scene has no read-out or input of a name.
+    /// The scene has no read-out or input with a name.
     #[error(transparent)]
     Name(#[from] UnknownName),
 }
@@ -40,7 +40,7 @@ impl<N: AsRef<str>> From<RecordError<N>> for RecordingError {
     }
 }
 
-/// The head with names of its own.
+/// The head with owned names.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct OwnedHead {
     scene: String,
@@ -51,7 +51,7 @@ pub(crate) struct OwnedHead {
 }
 
 impl OwnedHead {
-    /// Looks at it as one with borrowed names.
+    /// The head with borrowed names.
     pub(crate) fn with<A>(&self, look: impl FnOnce(Head<'_>) -> A) -> A {
         let bodies: Vec<&str> = self.bodies.iter().map(String::as_str).collect();
         let values: Vec<&str> = self.values.iter().map(String::as_str).collect();
@@ -103,8 +103,8 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// A recording of a scene's plant with a sample every so many steps, without samples yet. `names` are
-    /// those of read-outs and inputs of the scene, which are recorded with the bodies.
+    /// An empty recording of a scene's plant with a sample every `every` steps. `names` are read-outs and inputs of the
+    /// scene, which are recorded with the bodies.
     ///
     /// # Errors
     /// [`RecordingError::Name`] where the scene has no such read-out or input;
@@ -118,8 +118,8 @@ impl Recording {
         Self::of_controlled(scene, plant, every, names, &[])
     }
 
-    /// [`Self::of_scene`] with further numbers that the caller gives at each
-    /// [look](Self::look_with): what a controller computes or holds.
+    /// [`Self::of_scene`] with further numbers that the caller gives at each [call](Self::look_with), such as
+    /// controller states.
     ///
     /// # Errors
     /// As [`Self::of_scene`].
@@ -142,7 +142,7 @@ impl Recording {
                     values.push((*name).to_owned());
                     readouts.push((Readout::Input { input }, 1));
                 }
-                // Its error says what was probably meant.
+                // Its error suggests the probable name.
                 (None, Err(_)) => drop(scene.readout(name)?),
             }
         }
@@ -161,7 +161,7 @@ impl Recording {
     /// the numbers that the caller gives at each [sample](Self::sample).
     ///
     /// # Errors
-    /// [`RecordError`] where names or interval do not fit.
+    /// [`RecordError`] if names or interval are invalid.
     pub fn of_plant(
         scene: &str,
         plant: &(impl Subject + ?Sized),
@@ -189,10 +189,10 @@ impl Recording {
         Ok(Self { head, recorder, kept: Vec::new(), readouts })
     }
 
-    /// Keeps a sample if one is due; whether one was. The first look always keeps one.
+    /// Stores a sample if one is due; returns whether one was. The first call always stores one.
     ///
     /// # Errors
-    /// [`RecordError::Missed`] where the plant is beyond the step at which one was due.
+    /// [`RecordError::Missed`] if the plant is beyond the step at which one was due.
     pub fn look(&mut self, plant: &(impl Readable + ?Sized)) -> Result<bool, RecordingError> {
         self.look_with(plant, &[])
     }
@@ -200,7 +200,7 @@ impl Recording {
     /// [`Self::look`] with the further numbers of this recording.
     ///
     /// # Errors
-    /// As [`Self::look`]; [`RecordError::Values`] where they are other than the names.
+    /// As [`Self::look`]; [`RecordError::Values`] if their number differs from that of the names.
     pub fn look_with(
         &mut self,
         plant: &(impl Readable + ?Sized),
@@ -221,10 +221,10 @@ impl Recording {
         self.sample(plant, &values).map(|()| true)
     }
 
-    /// Keeps a sample, due or not: the last one may come early.
+    /// Stores a sample, due or not: the last one may be early.
     ///
     /// # Errors
-    /// [`RecordError`] where it does not come after the last, or has other numbers than there are names.
+    /// [`RecordError`] if it is not after the last, or the numbers of values and names differ.
     pub fn sample(
         &mut self,
         moment: &(impl Moment + ?Sized),
@@ -247,7 +247,7 @@ impl Recording {
     /// The golden file of this run.
     #[must_use]
     pub fn text(&self) -> String {
-        // A text in memory takes every line.
+        // A string in memory accepts every line.
         self.recorder.clone().finish().unwrap_or_default()
     }
 
@@ -257,7 +257,7 @@ impl Recording {
         &self.head.scene
     }
 
-    /// What its bits belong to.
+    /// The identity of its plant.
     #[must_use]
     pub fn identity(&self) -> &Identity<'static> {
         &self.head.identity
@@ -295,7 +295,7 @@ impl Recording {
     }
 }
 
-/// The golden file within a text with lines before and after it, as a target's console shows it.
+/// The golden file within a text with other lines before and after it, such as the console output of a target.
 #[must_use]
 pub fn within(console: &str) -> Option<&str> {
     let first = format!("\n{FIRST}");

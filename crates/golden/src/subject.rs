@@ -1,7 +1,7 @@
-//! What is recorded: a plant, and what it is at a moment.
+//! Recorded plants and their state at a sample.
 //!
-//! `plant => identity; plant => step, hash, numbers of each body`. The kernel's plant here, in whatever
-//! memory its model lies; plants by name with the feature `std`.
+//! `plant => identity; plant => step, hash, numbers of each body`. Implemented for the kernel's plant with any storage
+//! of its model; for plants by name with the feature `std`.
 
 use core::ops::Deref;
 
@@ -25,13 +25,13 @@ pub trait Moment {
     fn state_hash(&self) -> u64;
     /// The numbers of a body, widened exactly; `None` beyond the last.
     fn body_numbers(&self, row: usize) -> Option<BodyNumbers>;
-    /// The turn count of a torsion spring; `None` beyond the last.
+    /// The revolution count of a torsion spring; `None` beyond the last.
     fn turn_count(&self, spring: usize) -> Option<i32>;
 }
 
 /// A plant that can be recorded.
 pub trait Subject: Moment {
-    /// What its bits belong to.
+    /// Its identity, which determines its bits.
     fn identity(&self) -> Identity<'static>;
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn numbers<P: Geometry>(body: &BodyState<P>) -> BodyNumbers {
     [x, y, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz]
 }
 
-/// How many digits the numbers of a precision have.
+/// Number of digits of the numbers of a precision.
 fn numerals<P: Geometry>() -> Numerals {
     Numerals {
         position: digits(&P::Position::default(), 3),
@@ -102,7 +102,7 @@ fn numerals<P: Geometry>() -> Numerals {
     }
 }
 
-/// Single where the quantity is stored as f32 words, one per component.
+/// Single if the quantity is stored as f32 words, one per component.
 fn digits(stored: &impl Words, components: usize) -> Digits {
     struct Singles(usize, usize);
     impl WordVisitor for Singles {

@@ -1,7 +1,7 @@
-//! Reads a golden file, on a PC and on a target: its text stays where it lies.
+//! Reads a golden file in place, on a PC and on a target.
 //!
-//! `text => head, rows; or the line that is damaged`. All of it is looked at before anything is compared:
-//! every number, every line's hash, the last line.
+//! `text => head, rows; or the damaged line`. The whole file is checked before the comparison: every number, every
+//! line's hash, the last line.
 
 use crate::chain::Chain;
 use crate::component::ENDS;
@@ -10,7 +10,7 @@ use crate::mismatch::{Damage, KNOWN, Mismatch};
 use crate::number::{Digits, read_hash};
 use crate::record::Ending;
 
-/// A golden file that is whole.
+/// A complete golden file.
 #[derive(Clone, Copy, Debug)]
 pub struct Golden<'g> {
     pub(crate) scene: &'g str,
@@ -23,7 +23,7 @@ pub struct Golden<'g> {
     samples: u64,
 }
 
-/// A row: what was recorded at a step.
+/// A row: the numbers recorded at a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Row<'g> {
     /// The step.
@@ -34,7 +34,7 @@ pub struct Row<'g> {
     fields: &'g str,
 }
 
-/// Lines with their numbers, without their breaks.
+/// Lines with their numbers, without line breaks.
 #[derive(Clone, Copy, Debug)]
 struct Lines<'g> {
     rest: &'g str,
@@ -61,7 +61,7 @@ fn damaged<'g>(line: usize, damage: Damage) -> Mismatch<&'g str> {
     Mismatch::Damaged { line, damage }
 }
 
-/// Reads the head's lines in their order.
+/// Reads the header lines in order.
 struct HeadLines<'g> {
     lines: Lines<'g>,
     chain: Chain,
@@ -90,7 +90,7 @@ impl<'g> Golden<'g> {
     /// Reads a file's bytes.
     ///
     /// # Errors
-    /// As [`Self::read`], and where it is not UTF-8.
+    /// As [`Self::read`], and if it is not UTF-8.
     pub fn of_bytes(bytes: &'g [u8]) -> Result<Self, Mismatch<&'g str>> {
         let text = core::str::from_utf8(bytes).map_err(|error| {
             let before = bytes.get(..error.valid_up_to()).unwrap_or_default();
@@ -150,7 +150,7 @@ impl<'g> Golden<'g> {
         ENDS.len() * self.identity.bodies + self.identity.turns + self.values
     }
 
-    /// How many samples it has.
+    /// Number of samples.
     #[must_use]
     pub fn samples(&self) -> u64 {
         self.samples
@@ -162,7 +162,7 @@ impl<'g> Golden<'g> {
         self.scene
     }
 
-    /// What its bits belong to.
+    /// The identity of its plant.
     #[must_use]
     pub fn identity(&self) -> &Identity<'g> {
         &self.identity
@@ -185,7 +185,7 @@ impl<'g> Golden<'g> {
         self.rows().next().map(|row| row.step)
     }
 
-    /// Looks at every row and the last line; the number of samples.
+    /// Checks every row and the last line; returns the number of samples.
     fn checked(&self, mut chain: Chain) -> Read<'g, u64> {
         let mut lines = self.lines;
         let (mut samples, mut last) = (0, None);
@@ -228,7 +228,7 @@ impl<'g> Golden<'g> {
         Err(damaged(lines.number + 1, Damage::Cut))
     }
 
-    /// The first column of a row, from 1, that holds no number.
+    /// The first column of a row, from 1, that is not a number.
     fn check_numbers(&self, row: &str) -> Result<(), usize> {
         let mut fields = row.split('\t');
         let mut holds = |number: usize, is: &dyn Fn(&str) -> bool| {
@@ -249,20 +249,20 @@ impl<'g> Golden<'g> {
         Ok(())
     }
 
-    /// The digits of the number at a place of a row, from 0.
+    /// The digits of the number at an index of a row, from 0.
     pub(crate) fn digits(&self, place: usize) -> Digits {
         let bodies = ENDS.len() * self.identity.bodies;
         if place < bodies {
             self.identity.numerals.of_column(place % ENDS.len())
         } else if place < bodies + self.identity.turns {
-            // A count; not all of them are singles.
+            // A count, which may exceed single precision.
             Digits::Double
         } else {
             self.identity.numerals.value
         }
     }
 
-    /// The rows in their order.
+    /// The rows in order.
     #[must_use]
     pub fn rows(&self) -> Rows<'g> {
         Rows(self.lines)
@@ -272,7 +272,7 @@ impl<'g> Golden<'g> {
     pub fn numbers_of(&self, row: &Row<'g>) -> impl Iterator<Item = f64> + use<'g> {
         let golden = *self;
         let numbers = row.fields.split('\t').enumerate();
-        // All were read once before.
+        // All were checked before.
         numbers.map(move |(place, text)| golden.digits(place).read(text).unwrap_or(f64::NAN))
     }
 }
@@ -281,7 +281,7 @@ fn step_of(row: &str) -> Option<u64> {
     row.split('\t').next()?.parse().ok()
 }
 
-/// The rows of a file that was found whole.
+/// The rows of a checked file.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'g>(Lines<'g>);
 
@@ -292,13 +292,13 @@ impl<'g> Iterator for Rows<'g> {
         let (_, line) = self.0.next().filter(|(_, line)| !line.starts_with('#'))?;
         let (step, rest) = line.split_once('\t')?;
         let (hash, rest) = rest.split_once('\t')?;
-        // A scene without numbers is none.
+        // A scene without numbers is invalid.
         let (fields, _) = rest.rsplit_once('\t')?;
         Some(Row { step: step.parse().ok()?, hash: read_hash(hash)?, fields })
     }
 }
 
-/// Takes from a text what is written, and fails where that is something else.
+/// Consumes an expected text, and fails on any other.
 pub(crate) struct Expected<'t>(pub(crate) &'t str);
 
 impl core::fmt::Write for Expected<'_> {

@@ -1,7 +1,7 @@
 //! Actuators.
 //!
-//! `<motor>, <position>, <velocity>, affine <general> at a hinge, a slide, a tendon => what depends on
-//! coordinate and rate as an element, what depends on control as an input`.
+//! `<motor>, <position>, <velocity>, affine <general> at a hinge, a slide, a tendon => an element for the terms in
+//! coordinate and rate, an input for the term in the control`.
 
 use crate::coordinate::{Coordinate, Law};
 use crate::defaults::{Attributes, Defaults, MAIN};
@@ -13,20 +13,20 @@ use crate::pose::key;
 use crate::servo::{Servo, has_one_control};
 use crate::settings::Settings;
 
-/// What an actuator acts on.
+/// The target of an actuator.
 struct Target {
     coordinate: Coordinate,
-    /// What it is called.
+    /// Its name.
     name: String,
-    /// \[rad, m\] its value at the start.
+    /// \[rad, m\] initial value.
     start: f64,
-    /// \[kg·m², kg\] what it drives.
+    /// \[kg·m², kg\] the driven inertia.
     inertia: Option<f64>,
     /// The TSDA of its own spring.
     element: Option<String>,
 }
 
-/// Adds the inputs and elements of all actuators in their order.
+/// Adds the inputs and elements of all actuators in order.
 pub(crate) fn add(
     mechanism: &mut Mechanism<'_>,
     root: &Element,
@@ -84,7 +84,7 @@ fn omit(given: &Attributes<'_>, why: &str, omissions: &mut Omissions) {
     omissions.add(Kind::Actuator, element.place, format!("{}{words}: {why}", element.called()));
 }
 
-/// The controls at the start: of the keyframe, else 0.
+/// The initial controls: those of the keyframe, else 0.
 fn controls(
     mechanism: &Mechanism<'_>,
     root: &Element,
@@ -106,7 +106,7 @@ fn controls(
     Ok(given.numbers("ctrl", all.len(), all.len())?.unwrap_or(none))
 }
 
-/// What an actuator acts on, or why that cannot be said.
+/// The target of an actuator, or the reason why it has no counterpart.
 fn target(
     mechanism: &Mechanism<'_>,
     given: &Attributes<'_>,
@@ -114,7 +114,7 @@ fn target(
     if let Some(named) = given.get("joint").or(given.get("jointinparent")) {
         let body = mechanism.tree.joint(named)?;
         let Some(coordinate) = mechanism.coordinates.get(&body).cloned() else {
-            let why = "its joint is no hinge and no slide that the scene has".to_owned();
+            let why = "its joint is not a hinge or slide of the scene".to_owned();
             return Ok(Err(why));
         };
         return Ok(Ok(Target {
@@ -126,7 +126,7 @@ fn target(
         }));
     }
     let Some(named) = given.get("tendon") else {
-        return Ok(Err("acts at no joint and no tendon".into()));
+        return Ok(Err("acts on neither a joint nor a tendon".into()));
     };
     let Some((coordinate, element)) = mechanism.tendons.get(&named.value).cloned() else {
         return Ok(Err("its tendon is not in the scene".into()));
@@ -151,14 +151,14 @@ fn actuator(
     let element = given.element;
     let [force, _] = target.coordinate.units();
     let Some(mut law) = servo.law(target.start, target.inertia) else {
-        omit(given, "its damping ratio is that of a tendon: state `kv`", omissions);
+        omit(given, "`dampratio` is not supported for a tendon: give `kv`", omissions);
         return Ok(());
     };
     let is_motor = law.is_none();
     let (control, bounds) =
         limits(given, &target.coordinate, (control, is_motor), settings, omissions)?;
-    // Where no spring could hold it, a constant force is one of the input: without stiffness, and of a tendon,
-    // which pulls from its length at the start.
+    // A constant force belongs to the input where no spring can represent it: without stiffness, and for a tendon,
+    // whose force is relative to its initial length.
     let constant = match target.coordinate {
         Coordinate::Length { .. } => {
             let force = law.stiffness * law.rest + law.bias;
@@ -176,7 +176,7 @@ fn actuator(
         line = Some(target.coordinate.spring(mechanism, &format!("{called}-servo"), law, source));
     } else if target.coordinate.needs_line() && line.is_none() {
         let source =
-            (format!("what <{}> acts along: `{}`", element.name, target.name), element.place);
+            (format!("line of action of <{}>: `{}`", element.name, target.name), element.place);
         let wanted = format!("{}-spring", target.name);
         let made = target.coordinate.spring(mechanism, &wanted, Law::default(), source);
         remember(mechanism, given, &made)?;
@@ -187,7 +187,7 @@ fn actuator(
     let of_control = bounds.control.map(|bound| per_control * bound + sign * constant);
     let of_force = bounds.force.map(|bound| sign * servo.gear() * bound);
     let [of_control, [least, most]] = [of_control, of_force].map(|[a, b]| [a.min(b), a.max(b)]);
-    // The force of any control is held to that of the motor: a range beyond it is a single value.
+    // The motor's force range limits the control: a control range beyond it shrinks to a single value.
     let range = of_control.map(|bound| bound.clamp(least, most));
     let value = (per_control * control + sign * constant).clamp(least, most);
     if value != 0.0 {
@@ -203,7 +203,7 @@ fn actuator(
     Ok(())
 }
 
-/// Keeps the TSDA that was made for inputs: the next one acts along it, too.
+/// Stores the TSDA made for an input, so that further inputs reuse it.
 fn remember(
     mechanism: &mut Mechanism<'_>,
     given: &Attributes<'_>,
@@ -220,13 +220,13 @@ fn remember(
     Ok(())
 }
 
-/// Bounds of an actuator's control, and of its force where that is of a motor.
+/// Bounds of an actuator's control and, for a motor, of its force.
 struct Bounds {
     control: [f64; 2],
     force: [f64; 2],
 }
 
-/// Lists what has no counterpart beside the law; the control within its range, and the bounds that an input has.
+/// Lists limits, armatures and the like without a counterpart; returns the clamped control and the bounds of the input.
 fn limits(
     given: &Attributes<'_>,
     coordinate: &Coordinate,
@@ -260,7 +260,7 @@ fn limits(
         }
     }
     if given.number("inheritrange")?.is_some_and(|factor| factor > 0.0) {
-        let what = format!("{called}: ctrlrange as the range of its joint");
+        let what = format!("{called}: ctrlrange inherited from its joint");
         omissions.add(Kind::Limit, element.place, what);
     }
     let armature = given.magnitude("armature", 0.0)?;

@@ -1,7 +1,7 @@
 //! Springs of a mechanism whose loops are open at the file's pose.
 //!
-//! `scene that is closed => preloads`. The twist of a torsion spring is 0 at the closed pose, where the hinge
-//! has another coordinate than at the pose that the file gives; its preload is that of the closed one.
+//! `closed scene => preloads`. The torsion angle of a torsion spring is 0 at the closed pose, where the hinge
+//! coordinate differs from that of the file's pose; the preload is therefore computed at the closed pose.
 
 use dbd_scene::Scene;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -10,8 +10,8 @@ use crate::mechanism::Mechanism;
 use crate::part::Side;
 use crate::settings::quaternion;
 
-/// Sets the preloads to those of the closed pose; whether any changed. A scene that is refused changes
-/// none: who loads it says why.
+/// Sets the preloads to those of the closed pose; returns whether any changed. A refused scene changes none: loading it
+/// reports the reason.
 pub(crate) fn settle(mechanism: &mut Mechanism<'_>, text: &str) -> bool {
     let open = mechanism.links.iter().any(|link| !link.is_closed());
     let stiff = mechanism.torsions.iter().any(|spring| spring.stiffness > 0.0);
@@ -43,7 +43,7 @@ pub(crate) fn settle(mechanism: &mut Mechanism<'_>, text: &str) -> bool {
     true
 }
 
-/// \[rad\] the turn about an axis, within half a turn.
+/// \[rad\] the rotation about an axis, within ±π.
 fn twist(turn: &UnitQuaternion<f64>, axis: &Vector3<f64>) -> f64 {
     let angle = 2.0 * turn.imag().dot(axis).atan2(turn.w);
     if angle > std::f64::consts::PI {

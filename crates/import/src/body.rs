@@ -10,21 +10,21 @@ use crate::mass::{Mass, Solid};
 use crate::place::{Place, Source};
 use crate::settings::{Settings, along};
 
-/// What a joint leaves free.
+/// Degrees of freedom of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Freedom {
-    /// A turn about an axis.
+    /// Rotation about an axis.
     Hinge,
-    /// A shift along an axis.
+    /// Translation along an axis.
     Slide,
-    /// Every turn.
+    /// All rotations.
     Ball,
-    /// Everything.
+    /// All six degrees of freedom.
     Free,
 }
 
 impl Freedom {
-    /// How many numbers a keyframe gives for it.
+    /// Its number of coordinates in a keyframe.
     pub(crate) fn coordinates(self) -> usize {
         match self {
             Self::Hinge | Self::Slide => 1,
@@ -33,7 +33,7 @@ impl Freedom {
         }
     }
 
-    /// As MJCF names it.
+    /// Its name in MJCF.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Hinge => "hinge",
@@ -57,9 +57,9 @@ impl Freedom {
 pub(crate) struct Joint {
     /// Its name, if it has one.
     pub(crate) name: Option<String>,
-    /// Where it stands.
+    /// Its position in the file.
     pub(crate) place: Place,
-    /// What it leaves free.
+    /// Its degrees of freedom.
     pub(crate) freedom: Freedom,
     /// \[m\] its anchor in the body's frame.
     pub(crate) anchor: Vector3<f64>,
@@ -73,20 +73,20 @@ pub(crate) struct Joint {
     pub(crate) stiffness: f64,
     /// \[N·m·s/rad, N·s/m\]
     pub(crate) damping: f64,
-    /// \[rad, m\] the ends of its coordinate, whether it is held to them or not.
+    /// \[rad, m\] range of its coordinate, whether enforced or not.
     pub(crate) range: Option<[f64; 2]>,
-    /// Whether it is held to them.
+    /// Whether the range is enforced.
     pub(crate) limited: bool,
     /// \[N·m, N\] dry friction.
     pub(crate) friction: f64,
     /// \[kg·m², kg\] inertia that an actuator's rotor adds.
     pub(crate) armature: f64,
-    /// Whether it is left out: its coordinate then stays that of the file's pose.
+    /// Whether it is locked at the file's pose.
     pub(crate) locked: bool,
 }
 
 impl Joint {
-    /// How the file calls it: its name, or its kind.
+    /// Its name, or else its kind.
     pub(crate) fn called(&self) -> String {
         let word = self.freedom.word();
         self.name.as_ref().map_or(word.to_owned(), |name| format!("{word} `{name}`"))
@@ -107,15 +107,19 @@ pub(crate) fn joint(given: &Attributes<'_>, settings: &Settings) -> Result<Joint
     let axis = given.vector("axis")?.unwrap_or_else(Vector3::z);
     let axis = Unit::try_new(axis, 1e-150).ok_or_else(|| {
         let place = given.get("axis").map_or(given.element.place, |axis| axis.place);
-        Fault::at(place, "`axis` is 0", "a direction of any length but 0")
+        Fault::at(place, "`axis` is 0", "expected a vector of nonzero length")
     })?;
     let scaled = |value: f64| if freedom == Freedom::Slide { value } else { settings.angle(value) };
-    // Further numbers are coefficients of higher powers, which are looked at with what has no counterpart.
+    // Further numbers are coefficients of higher powers; `lacks` reports them.
     let linear = |name: &str| -> Result<f64, Fault> {
         let value = given.numbers(name, 1, 3)?.map_or(0.0, |numbers| numbers[0]);
         if value < 0.0 {
             let place = given.get(name).map_or(given.element.place, |one| one.place);
-            return Err(Fault::at(place, format!("`{name}` is {value:?}"), "a number ≥ 0"));
+            return Err(Fault::at(
+                place,
+                format!("`{name}` is {value:?}"),
+                "expected a number ≥ 0",
+            ));
         }
         Ok(value)
     };
@@ -139,7 +143,7 @@ pub(crate) fn joint(given: &Attributes<'_>, settings: &Settings) -> Result<Joint
     })
 }
 
-/// What a `<freejoint>` is.
+/// The joint of a `<freejoint>`.
 pub(crate) fn free_joint(name: Option<&str>, place: Place) -> Joint {
     Joint {
         name: name.map(str::to_owned),
@@ -159,14 +163,14 @@ pub(crate) fn free_joint(name: Option<&str>, place: Place) -> Joint {
     }
 }
 
-/// What a geom is.
+/// A geom.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Geom {
-    /// Its shape, `None` for one without a volume that can be told from the file.
+    /// Its shape; `None` where the file does not determine a volume.
     pub(crate) solid: Option<Solid>,
-    /// Its `type`, or what it takes its shape from.
+    /// Its `type`, or the source of its shape.
     pub(crate) word: &'static str,
-    /// The mesh that it is.
+    /// Its mesh.
     pub(crate) mesh: Option<String>,
     /// Its pose in the body's frame.
     pub(crate) pose: Isometry3<f64>,
@@ -179,7 +183,7 @@ const TYPES: [&str; 9] =
 pub(crate) fn geom(given: &Attributes<'_>, settings: &Settings) -> Result<Geom, Fault> {
     let word = TYPES[given.word("type", &TYPES)?.unwrap_or(0)];
     let mut pose = settings.pose(given)?;
-    // A mesh gives its size to a shape that stands for it.
+    // A shape fitted to a mesh gets its size from the mesh.
     if given.get("mesh").is_some() || matches!(word, "plane" | "hfield" | "mesh" | "sdf") {
         let mesh = given.text("mesh").filter(|_| word == "mesh").map(str::to_owned);
         let word = if given.get("mesh").is_some() { "mesh" } else { word };
@@ -195,8 +199,8 @@ pub(crate) fn geom(given: &Attributes<'_>, settings: &Settings) -> Result<Geom, 
     if let Some(ends) = ends {
         let [from, to] = [&ends[..3], &ends[3..]].map(Vector3::from_column_slice);
         let Some(direction) = Unit::try_new(to - from, 1e-150) else {
-            let help = "two points that differ";
-            return Err(Fault::at(given.place("fromto"), "`fromto` has no length", help));
+            let help = "give two different points";
+            return Err(Fault::at(given.place("fromto"), "`fromto` has zero length", help));
         };
         pose = Isometry3::from_parts(Translation3::from((from + to) * 0.5), along(&direction));
         let half = (to - from).norm() * 0.5;
@@ -213,7 +217,7 @@ pub(crate) fn geom(given: &Attributes<'_>, settings: &Settings) -> Result<Geom, 
         return Err(Fault::at(
             place,
             message,
-            format!("{needed} numbers > 0, or fewer with `fromto`"),
+            format!("expected {needed} numbers > 0, or fewer with `fromto`"),
         ));
     }
     let solid = match word {
@@ -230,13 +234,13 @@ pub(crate) fn geom(given: &Attributes<'_>, settings: &Settings) -> Result<Geom, 
 pub(crate) fn inertial(given: &Attributes<'_>, settings: &Settings) -> Result<Mass, Fault> {
     let place = given.element.place;
     let Some(mass) = given.number("mass")?.filter(|mass| *mass >= 0.0) else {
-        return Err(Fault::at(place, "<inertial> has no `mass` ≥ 0", "mass=\"…\" in kg"));
+        return Err(Fault::at(place, "<inertial> has no `mass` ≥ 0", "give mass=\"…\" in kg"));
     };
     if given.get("pos").is_none() {
         return Err(Fault::at(
             place,
             "<inertial> has no `pos`",
-            "pos=\"x y z\", the centre of mass",
+            "give pos=\"x y z\", the centre of mass",
         ));
     }
     let frame = settings.pose(given)?;
@@ -246,8 +250,8 @@ pub(crate) fn inertial(given: &Attributes<'_>, settings: &Settings) -> Result<Ma
         return Ok(Mass::principal(mass, [moments[0], moments[1], moments[2]], &frame));
     };
     if diagonal.is_some() || frame.rotation != UnitQuaternion::identity() {
-        let message = "`fullinertia` stands beside `diaginertia` or an orientation";
-        return Err(Fault::at(given.place("fullinertia"), message, "one of them"));
+        let message = "`fullinertia` conflicts with `diaginertia` or an orientation";
+        return Err(Fault::at(given.place("fullinertia"), message, "give only one of them"));
     }
     let [xx, yy, zz, xy, xz, yz] = [full[0], full[1], full[2], full[3], full[4], full[5]];
     let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);

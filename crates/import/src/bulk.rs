@@ -1,9 +1,9 @@
-//! Volume, centre and inertia of what a surface of triangles encloses.
+//! Volume, centre and inertia enclosed by a triangle mesh.
 //!
-//! `triangles, rule => volume, centre, tensor`. Each triangle makes a tetrahedron with one point; their sums
-//! with signs are those of the enclosed volume, whichever the point (Mirtich 1996 has the same integrals).
-//! MuJoCo takes the centre of area as that point to find the centre of mass, and the latter for the rest;
-//! with the sums of its older rule, which have no signs, that matters.
+//! `triangles, rule => volume, centre, tensor`. Each triangle forms a tetrahedron with a common point; the signed sums
+//! over them give the integrals of the enclosed volume for any such point (Mirtich 1996). MuJoCo uses the centre of
+//! area as the point to compute the centre of mass, and the centre of mass for the rest; this matters for its legacy
+//! rule, whose sums are unsigned.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,19 +12,19 @@ use nalgebra::{Isometry3, Matrix3, Vector3};
 
 use crate::mass::Mass;
 
-/// \[m³, m²\] a mesh of less has no mass in MuJoCo.
+/// \[m³, m²\] smaller meshes have no mass in MuJoCo.
 const LEAST: f64 = 1e-15;
-/// \[1\] volumes of two rules count as one that differ by less.
+/// \[1\] volumes of two rules within this relative difference are considered equal.
 const ALIKE: f64 = 1e-6;
 
-/// What of a mesh has mass.
+/// The part of a mesh that has mass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rule {
-    /// Its tetrahedra without their signs: parts of what is not convex count twice.
+    /// The unsigned sum of its tetrahedra, which counts parts of a non-convex mesh twice.
     Legacy,
     /// Its convex hull.
     Convex,
-    /// What it encloses.
+    /// The enclosed volume.
     Exact,
     /// Its surface.
     Shell,
@@ -35,25 +35,25 @@ pub(crate) enum Rule {
 pub(crate) struct Surface {
     /// \[m\]
     pub(crate) points: Vec<Vector3<f64>>,
-    /// Three points each, to the left around as seen from outside.
+    /// Three vertices each, counter-clockwise as seen from outside.
     pub(crate) faces: Vec<[usize; 3]>,
-    /// How many objects its file has beside the one whose faces these are.
+    /// Number of further objects in its file.
     pub(crate) others: usize,
 }
 
-/// What a surface holds at a density of 1.
+/// Mass properties at a density of 1.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Bulk {
     /// Its mass, which is its volume, or of a shell its area.
     mass: Mass,
-    /// What it is, in words.
+    /// Description.
     pub(crate) words: String,
-    /// \[m³\] what its faces enclose, where the rule has another volume.
+    /// \[m³\] the enclosed volume, where the rule yields another.
     pub(crate) enclosed: Option<f64>,
 }
 
 impl Bulk {
-    /// \[m³, m²\] volume, or area of a shell.
+    /// \[m³, m²\] volume, or area for a shell.
     pub(crate) fn size(&self) -> f64 {
         self.mass.mass
     }
@@ -65,9 +65,9 @@ impl Bulk {
 }
 
 impl Surface {
-    /// The triangles of an element; without faces those of the convex hull.
+    /// The triangles of an element; without faces, those of its convex hull.
     pub(crate) fn of_numbers(vertices: &[f64], faces: &[f64]) -> Result<Self, String> {
-        // MuJoCo has vertices in single precision.
+        // MuJoCo stores vertices in single precision.
         let single = |part: &f64| f64::from(*part as f32);
         let points: Vec<Vector3<f64>> = vertices
             .chunks_exact(3)
@@ -77,7 +77,7 @@ impl Surface {
         for corner in faces {
             let is_one = *corner >= 0.0 && corner.fract() == 0.0 && *corner < points.len() as f64;
             if !is_one {
-                return Err(format!("its face names vertex {corner}, which there is not"));
+                return Err(format!("a face refers to vertex {corner}, which does not exist"));
             }
             corners.push(*corner as usize);
         }
@@ -85,7 +85,7 @@ impl Surface {
             vertices.len().is_multiple_of(3) && corners.len().is_multiple_of(3) && points.len() > 3;
         if !whole {
             return Err(
-                "its vertices and faces are not three numbers each, four vertices at least".into(),
+                "it needs at least four vertices and three numbers for each vertex and face".into(),
             );
         }
         let faces = corners.chunks_exact(3).map(|face| [face[0], face[1], face[2]]).collect();
@@ -93,13 +93,13 @@ impl Surface {
         if surface.faces.is_empty() { surface.hull() } else { Ok(surface) }
     }
 
-    /// What it holds by a rule; `Err`: why that is nothing.
+    /// Its mass properties by a rule; `Err`: why it has none.
     pub(crate) fn bulk(&self, rule: Rule) -> Result<Bulk, String> {
         if self.faces.is_empty() {
             return Err("it has no faces".into());
         }
         if !self.points.iter().all(|point| point.iter().all(|part| part.is_finite())) {
-            return Err("its points are not finite numbers".into());
+            return Err("its vertices are not finite".into());
         }
         let signed = |volume: f64| volume;
         let (mass, enclosed) = match rule {
@@ -116,10 +116,10 @@ impl Surface {
             }
         };
         if mass.mass < 0.0 {
-            return Err("its faces are the wrong way round: the volume is negative".into());
+            return Err("its faces are oriented inwards: the volume is negative".into());
         }
         if mass.mass < LEAST {
-            return Err("it encloses no volume: inertia=\"shell\" takes its surface".into());
+            return Err("it encloses no volume: use inertia=\"shell\" for a surface".into());
         }
         let words = match rule {
             Rule::Shell => format!("shell of a mesh, {:.6e} m²", mass.mass),
@@ -148,7 +148,7 @@ impl Surface {
         (if area > 0.0 { sum / area } else { sum }, area)
     }
 
-    /// What its tetrahedra hold, each counted as `count` says of its volume.
+    /// Mass properties of its tetrahedra, each weighted by `count` of its volume.
     fn filled(&self, count: impl Fn(f64) -> f64) -> Mass {
         let (inside, _) = self.centre_of_area();
         let volume = |[a, b, c]: [Vector3<f64>; 3]| count(a.dot(&b.cross(&c)) / 6.0);
@@ -173,7 +173,7 @@ impl Surface {
         solid(whole, &second, centre)
     }
 
-    /// What its faces hold.
+    /// Mass properties of its faces.
     fn shell(&self) -> Mass {
         let (centre, area) = self.centre_of_area();
         let mut second = Matrix3::zeros();
@@ -184,9 +184,9 @@ impl Surface {
         solid(area, &second, centre)
     }
 
-    /// Refuses faces that disagree about which side is outside: two that go along an edge the same way.
+    /// Refuses inconsistently oriented faces: two that traverse an edge in the same direction.
     fn check_sides(&self) -> Result<(), String> {
-        // Files repeat points; what lies at one place is one.
+        // Files repeat vertices; coincident ones are merged.
         let mut places = BTreeMap::new();
         let place = |point: &Vector3<f64>| [point.x, point.y, point.z].map(|x| (x + 0.0).to_bits());
         let one: Vec<usize> = (0..self.points.len())
@@ -199,7 +199,7 @@ impl Surface {
                 if from != to && !edges.insert((from, to)) {
                     let p = self.points[from];
                     return Err(format!(
-                        "its faces disagree about which side is outside, at {} {} {}",
+                        "its faces are oriented inconsistently at {} {} {}",
                         p.x, p.y, p.z
                     ));
                 }
@@ -213,7 +213,7 @@ impl Surface {
         let points: Vec<Vec<f64>> =
             self.points.iter().map(|point| vec![point.x, point.y, point.z]).collect();
         let hull = ConvexHullWrapper::try_new(&points, None)
-            .map_err(|_| "its points span no volume".to_owned())?;
+            .map_err(|_| "its vertices span no volume".to_owned())?;
         let (points, corners) = hull.vertices_indices();
         let points = points.iter().map(|point| Vector3::from_column_slice(point)).collect();
         let faces = corners.chunks_exact(3).map(|face| [face[0], face[1], face[2]]).collect();

@@ -1,12 +1,11 @@
-//! Bodies between the joints of a chain, whose mass its neighbours give.
+//! Bodies between the joints of a chain, whose mass is taken from their neighbours.
 //!
-//! `stages, masses of parts => masses of carriers`. A thin rod on the axis of a hinge moves alike on either
-//! of the hinge's bodies: its turn about itself takes no energy. So does a point mass at the centre of a
-//! ball, and about the centre of mass any moment of inertia across a slide, whose bodies turn alike. Taken
-//! off one body and given to the carrier beyond the joint, they leave the motion exactly what it was. In
-//! the algebra of pseudo-inertias, ∫(p, 1)(p, 1)ᵀ dm, such a piece is t·v·vᵀ, and a mass M can give less
-//! than t = 1/(vᵀM⁻¹v) of it (Wensing, Kim & Slotine 2018, "Linear matrix inequalities for physically
-//! consistent inertial parameter identification").
+//! `stages, masses of parts => masses of carriers`. A thin rod on the axis of a hinge moves identically on either of
+//! the hinge's bodies: its rotation about itself has no energy. The same holds for a point mass at the centre of a ball
+//! joint, and for any moment of inertia across a slide, whose bodies rotate identically. Moving such mass from one body
+//! to the carrier beyond the joint leaves the motion exactly unchanged. In terms of pseudo-inertias, ∫(p, 1)(p, 1)ᵀ dm,
+//! such a piece is t·v·vᵀ, and a mass M can give less than t = 1/(vᵀM⁻¹v) of it (Wensing, Kim & Slotine 2018, "Linear
+//! matrix inequalities for physically consistent inertial parameter identification").
 
 use nalgebra::{Isometry3, Matrix4, Vector3, Vector4};
 
@@ -15,17 +14,17 @@ use crate::chain::{Stage, Way, centre};
 use crate::mass::Mass;
 use crate::tree::Tree;
 
-/// A body gives at most this fraction of what it can, so that it stays as round as the carrier becomes.
+/// A body gives at most this fraction of the possible mass, so that both bodies remain well conditioned.
 const GIVEN: f64 = 0.5;
-/// A carrier turns about each axis with at least this fraction of its largest moment: a thinner one would
-/// be by far the fastest thing of the scene.
+/// Each principal moment of a carrier is at least this fraction of its largest: a thinner one would have by far the
+/// highest natural frequency of the scene.
 const ROUND: f64 = 1e-2;
 
-/// What moves alike on both sides of a stage, in the carrier's frame.
+/// Mass that moves identically on both sides of a stage, in the carrier's frame.
 struct Shared {
-    /// A point at which mass does, and the axis along which that point may lie.
+    /// Point mass at a point, which may lie anywhere along the axis.
     at: Option<(Vector3<f64>, Option<Vector3<f64>>)>,
-    /// Directions along which moments do.
+    /// Moments along these directions.
     along: Vec<Vector3<f64>>,
 }
 
@@ -43,7 +42,7 @@ impl Shared {
         }
     }
 
-    /// Moves what `from` can give to `to`; the world gives as if it were `like`.
+    /// Moves the mass that `from` can give to `to`; the world gives as if it were `like`.
     fn take(&self, from: Option<&mut Matrix4<f64>>, to: &mut Matrix4<f64>, like: &Matrix4<f64>) {
         let mut endless = *like;
         let from = match from {
@@ -77,20 +76,19 @@ fn give(from: &mut Matrix4<f64>, to: &mut Matrix4<f64>, v: Vector4<f64>) {
     }
 }
 
-/// What became of the carriers of a body.
+/// The carriers of a body.
 #[derive(Clone, Debug)]
 pub(crate) struct Shares {
     /// The body.
     pub(crate) body: usize,
-    /// The carriers, each with whether the motion is exactly what it was.
+    /// The carriers, each with whether the motion is exactly unchanged.
     pub(crate) carriers: Vec<(usize, bool)>,
 }
 
-/// Gives each carrier its mass. `share`: the fraction of its body's mass that one takes for which there is no
-/// exact one.
+/// Gives each carrier its mass. `share`: fraction of the body's mass for a carrier without an exact mass.
 ///
 /// # Errors
-/// The body whose carriers have no exact mass, where no share is stated.
+/// The body whose carriers have no exact mass, if no fraction is given.
 pub(crate) fn share(
     tree: &Tree,
     stages: &[Stage],

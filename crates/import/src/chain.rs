@@ -1,8 +1,8 @@
-//! Several joints of one body, and which joints of a scene say them.
+//! Several joints of one body, and the equivalent joints of a scene.
 //!
-//! `tree => stages, each from a body to a body`. A body with joints J1 … Jn hangs on n − 1 carriers without
-//! mass, see [`crate::tree`]. What one joint of a scene holds exactly is one stage; a carrier between two
-//! stages becomes a body, see [`crate::carrier`].
+//! `tree => stages, each from a body to a body`. A body with joints J1 … Jn is connected through n − 1 massless
+//! carriers, see [`crate::tree`]. Joints that one joint of a scene represents exactly form one stage; a carrier between
+//! two stages becomes a body, see [`crate::carrier`].
 
 use std::collections::BTreeSet;
 
@@ -11,45 +11,44 @@ use nalgebra::{Matrix3, Vector3};
 use crate::body::{Freedom, Joint};
 use crate::tree::{Tree, WORLD};
 
-/// \[1\] directions count as parallel or normal to each other within this sine or cosine, as the scene's
-/// own universal joint has it.
+/// \[1\] directions are considered parallel or normal within this sine or cosine, as for the scene's universal joint.
 pub(crate) const ALIKE: f64 = 1e-6;
-/// \[m\] axes meet that pass each other this closely.
+/// \[m\] axes at this distance are considered to intersect.
 const MEETING: f64 = 1e-9;
 
-/// How a scene says the joints of a stage.
+/// How a scene represents the joints of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Way {
-    /// By the one joint that it is.
+    /// As a single joint.
     Single,
     /// A hinge and a slide along its axis: a cylindrical joint.
     Cylindrical,
-    /// Two hinges whose axes meet at right angles: a universal joint.
+    /// Two hinges whose axes intersect at right angles: a universal joint.
     Universal,
-    /// Three hinges whose axes meet, on which nothing acts: a spherical joint.
+    /// Three hinges whose axes intersect, without forces: a spherical joint.
     Spherical,
-    /// Slides and turns in every direction from the world, on which nothing acts: no joint.
+    /// All six degrees of freedom relative to the world, without forces: no joint.
     Free,
     /// Two slides and a hinge across them from the world, in a planar scene: no joint.
     Plane,
 }
 
-/// What joins a body to the one before it.
+/// The connection of a body to the previous one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Stage {
-    /// The body before it.
+    /// The previous body.
     pub(crate) base: usize,
     /// The body.
     pub(crate) body: usize,
-    /// The bodies whose joints the stage has, in their order; the last is `body`.
+    /// The bodies whose joints the stage contains, in order; the last is `body`.
     pub(crate) joints: Vec<usize>,
-    /// How a scene says them.
+    /// How a scene represents them.
     pub(crate) way: Way,
 }
 
-/// What the stages depend on beside the joints.
+/// Further conditions for the stages.
 pub(crate) struct Circumstances {
-    /// Names of joints on which an actuator acts.
+    /// Names of actuated joints.
     pub(crate) driven: BTreeSet<String>,
     /// Whether the scene is to be planar.
     pub(crate) planar: bool,
@@ -123,7 +122,7 @@ fn of_kind(joints: &[&Joint], freedom: Freedom) -> Vec<Vector3<f64>> {
     of.map(|joint| joint.axis.into_inner()).collect()
 }
 
-/// Whether joints leave every motion free, with none of their coordinates preferred.
+/// Whether joints leave every motion free without forces on any coordinate.
 fn is_free(joints: &[&Joint], around: &Circumstances) -> bool {
     let turns = of_kind(joints, Freedom::Hinge);
     let slides = of_kind(joints, Freedom::Slide);
@@ -137,8 +136,8 @@ fn is_free(joints: &[&Joint], around: &Circumstances) -> bool {
     turned && moved && !joints.iter().any(|joint| around.acts(joint))
 }
 
-/// Whether joints leave free what a planar scene does. What acts on slides needs a frame that does not turn
-/// and slides at right angles.
+/// Whether joints leave the planar degrees of freedom free. Forces on slides require a non-rotating frame and
+/// perpendicular slides.
 fn is_plane(joints: &[&Joint], around: &Circumstances) -> bool {
     let (turns, slides) = (of_kind(joints, Freedom::Hinge), of_kind(joints, Freedom::Slide));
     let ([normal], [a, b]) = (&turns[..], &slides[..]) else { return false };
@@ -149,7 +148,7 @@ fn is_plane(joints: &[&Joint], around: &Circumstances) -> bool {
     joints.len() == 3 && across && a.cross(b).norm() > ALIKE && (square || calm)
 }
 
-/// Where the axes of two hinges pass each other closest, if they meet.
+/// The intersection of the axes of two hinges, if any.
 fn meeting(a: &Joint, b: &Joint) -> Option<Vector3<f64>> {
     let (u, v) = (a.axis.into_inner(), b.axis.into_inner());
     let (normal, apart) = (u.cross(&v), b.anchor - a.anchor);
@@ -161,7 +160,7 @@ fn meeting(a: &Joint, b: &Joint) -> Option<Vector3<f64>> {
     (gap < MEETING).then(|| a.anchor + u * along)
 }
 
-/// Where the axes of the hinges of a stage meet.
+/// The intersection of the hinge axes of a stage.
 pub(crate) fn centre(joints: &[&Joint]) -> Vector3<f64> {
     match joints {
         [a, b, ..] => meeting(a, b).unwrap_or(a.anchor),

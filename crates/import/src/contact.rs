@@ -1,7 +1,7 @@
-//! Which geoms can touch, and what a scene has of that: spheres, capsules and boxes on planes.
+//! Pairs of geoms that can touch; a scene supports spheres, capsules and boxes on planes.
 //!
-//! `geoms, <contact> => contacts, each geom that some other could touch besides`. As MuJoCo chooses pairs: bits that meet,
-//! not of bodies rigid with each other or next to each other in the tree, not excluded; and the pairs of `<contact>`.
+//! `geoms, <contact> => contacts, geoms with unsupported contacts`. Pairs are chosen as in MuJoCo: matching bits,
+//! bodies neither rigid with each other nor adjacent in the tree, not excluded; and the pairs of `<contact>`.
 
 use std::collections::BTreeSet;
 
@@ -19,15 +19,15 @@ use crate::tree::{Tree, WORLD};
 /// A solid on a plane.
 #[derive(Clone, Debug)]
 pub(crate) struct Touch {
-    /// The plane and the solid by their places among the geoms.
+    /// Indices of the plane and the solid among the geoms.
     plane: usize,
     solid: usize,
     grip: Grip,
 }
 
 impl Touch {
-    /// Two geoms; `None` where they are no plane and no solid that meets one in points, the solid is the world's, or both are
-    /// rigid with each other.
+    /// Orders two geoms; `None` if they are not a plane and a supported solid, the solid belongs to the world, or both
+    /// are rigid with each other.
     fn of(tree: &Tree, [i, j]: [usize; 2], grip: Grip) -> Option<Self> {
         let is_plane = |i: usize| tree.surfaces[i].form == Form::Plane;
         let (plane, solid) = if is_plane(i) { (i, j) } else { (j, i) };
@@ -37,7 +37,7 @@ impl Touch {
     }
 }
 
-/// Lists contacts, and geoms that can touch another besides.
+/// Lists contacts, and geoms with unsupported contacts.
 pub(crate) fn find(
     root: &Element,
     tree: &Tree,
@@ -105,7 +105,7 @@ pub(crate) fn find(
     };
     for i in 0..tree.surfaces.len() {
         let found = (0..i).filter(|j| touch(i, *j)).filter_map(|j| between(i, j));
-        // A pair of its own replaces what the bits say.
+        // An explicit pair overrides the bits.
         touches.extend(found.filter(|touch| !paired.contains(&[touch.plane, touch.solid])));
     }
     for (i, surface) in tree.surfaces.iter().enumerate() {
@@ -131,7 +131,7 @@ pub(crate) fn add(mechanism: &mut Mechanism<'_>, touches: &[Touch]) {
         let (ground, placed) = (pose(plane), pose(solid));
         let normal = ground.rotation * Vector3::z();
         let stiffness = mechanism.options.stiffness;
-        // Half of what would be critical for the body alone, as friction of joints has it.
+        // Half of the critical damping for the body alone, as for joint friction.
         let shear = SHEAR * stiffness * mechanism.parts.parts[part].mass.mass;
         let damping = rounded(shear.sqrt());
         let called = solid.name.clone().unwrap_or_else(|| mechanism.name(Some(part)).to_owned());
@@ -155,7 +155,7 @@ pub(crate) fn add(mechanism: &mut Mechanism<'_>, touches: &[Touch]) {
     }
 }
 
-/// Tangential over normal stiffness, as of scenes.
+/// Tangential over normal stiffness, as in scenes.
 const SHEAR: f64 = 0.8;
 
 /// The first of the bodies that are rigid with a body.

@@ -1,6 +1,7 @@
-//! What springs, dampers and inputs act on: coordinates of hinges, slides and tendons.
+//! Coordinates of hinges, slides and tendons, on which springs, dampers and inputs act.
 //!
-//! `joints, tendons => coordinates; laws`. A law is the force along its coordinate, `stiffness·(rest − x) + bias − damping·x'`, x counted from where the scene begins.
+//! `joints, tendons => coordinates; laws`. A law is the force along its coordinate, `stiffness·(rest − x) + bias −
+//! damping·x'`, with x relative to the start of the scene.
 
 use nalgebra::Vector3;
 
@@ -13,30 +14,30 @@ pub(crate) struct Law {
     pub(crate) stiffness: f64,
     /// \[N·m·s/rad, N·s/m\]
     pub(crate) damping: f64,
-    /// \[rad, m\] where the spring is at rest.
+    /// \[rad, m\] rest position of the spring.
     pub(crate) rest: f64,
-    /// \[N·m, N\] constant.
+    /// \[N·m, N\] constant force.
     pub(crate) bias: f64,
 }
 
 impl Law {
-    /// Whether it is no force at all.
+    /// Whether it exerts no force.
     pub(crate) fn is_none(&self) -> bool {
         self.stiffness == 0.0 && self.damping == 0.0 && self.bias == 0.0
     }
 
-    /// \[rad, m\] where all of its force but the damping is 0; `rest` of what has no stiffness.
+    /// \[rad, m\] where its force except damping is 0; `rest` without stiffness.
     pub(crate) fn zero(&self) -> f64 {
         if self.bias == 0.0 { self.rest } else { self.rest + self.bias / self.stiffness }
     }
 }
 
-/// A coordinate, in the world where the scene begins.
+/// A coordinate, in world axes at the start of the scene.
 #[derive(Clone, Debug)]
 pub(crate) enum Coordinate {
-    /// The turn of the second body beside the first.
+    /// Rotation of the second body relative to the first.
     Turn {
-        /// The joint that turns, and which of its axes; none: nothing joins the bodies.
+        /// The joint, and which of its axes; none: no joint connects the bodies.
         joint: Option<(String, Option<&'static str>)>,
         /// The bodies; the axis is fixed in the first.
         between: [Side; 2],
@@ -45,7 +46,7 @@ pub(crate) enum Coordinate {
         /// Whether the axis is fixed in the second body.
         is_of_second: bool,
     },
-    /// The shift of the second body along an axis of the first.
+    /// Translation of the second body along an axis of the first.
     Slide {
         /// The bodies.
         between: [Side; 2],
@@ -53,7 +54,7 @@ pub(crate) enum Coordinate {
         at: Vector3<f64>,
         /// The axis.
         axis: Vector3<f64>,
-        /// \[m\] how far it goes.
+        /// \[m\] travel.
         travel: f64,
     },
     /// The distance of two points.
@@ -63,15 +64,15 @@ pub(crate) enum Coordinate {
         /// \[m\] the points.
         points: [Vector3<f64>; 2],
     },
-    /// The shift of a part in the plane of a planar scene.
+    /// Translation of a part in the plane of a planar scene.
     Shift {
         /// The part.
         part: usize,
-        /// \[m\] the point that is shifted.
+        /// \[m\] the translated point.
         at: Vector3<f64>,
-        /// Along this.
+        /// Direction of translation.
         axis: Vector3<f64>,
-        /// And not across, in the plane.
+        /// Its normal in the plane.
         across: Vector3<f64>,
     },
 }
@@ -85,7 +86,7 @@ impl Coordinate {
         }
     }
 
-    /// Whether an input acts beside a TSDA.
+    /// Whether an input acts along a TSDA.
     pub(crate) fn needs_line(&self) -> bool {
         matches!(self, Self::Slide { .. } | Self::Length { .. })
     }

@@ -1,7 +1,7 @@
 //! Sums of joint coordinates: equalities between two joints, fixed tendons.
 //!
-//! `<joint joint1 joint2 polycoef>, <fixed> of joints => [[coupling]]`. A scene counts coordinates from where it begins; what
-//! they are there goes into the offset.
+//! `<joint joint1 joint2 polycoef>, <fixed> of joints => [[coupling]]`. A scene measures coordinates from its start;
+//! the initial values go into the offset.
 
 use crate::body::{Freedom, Joint};
 use crate::defaults::Attributes;
@@ -10,22 +10,22 @@ use crate::error::Fault;
 use crate::mechanism::{Axis, Coupling, Mechanism, rounded};
 use crate::settings::Settings;
 
-/// \[s\] damping over stiffness of couplings for which a file states neither: MuJoCo's `solref` is no law of a scene.
+/// \[s\] damping over stiffness of couplings for which a file gives neither: MuJoCo's `solref` has no counterpart.
 pub(crate) const SETTLING: f64 = 1e-3;
 
-/// The most joints of a coupling.
+/// Maximum number of joints of a coupling.
 const MOST: usize = 3;
 
 /// A joint's coordinate with its factor in a sum.
 struct Term<'m> {
     axis: Axis,
     joint: &'m Joint,
-    /// \[rad, m\] the coordinate where the scene begins.
+    /// \[rad, m\] initial coordinate.
     start: f64,
     factor: f64,
 }
 
-/// Stiff enough to hold, and at each joint no stiffer than its limits.
+/// Stiffness of a coupling: at each joint no stiffer than the joint's limits.
 fn stiffness(mechanism: &Mechanism<'_>, terms: &[Term<'_>]) -> f64 {
     let of = |term: &Term<'_>| {
         let is_hinge = term.joint.freedom == Freedom::Hinge;
@@ -51,7 +51,7 @@ fn of(terms: &[Term<'_>]) -> Vec<(Axis, f64)> {
     terms.iter().map(|term| (term.axis.clone(), signed(term))).collect()
 }
 
-/// Adds a coupling for an equality of two joints; otherwise the reason why a scene has none.
+/// Adds a coupling for an equality of two joints, or returns the reason why it has no counterpart.
 pub(crate) fn equality(
     mechanism: &mut Mechanism<'_>,
     given: &Attributes<'_>,
@@ -59,23 +59,23 @@ pub(crate) fn equality(
     let element = given.element;
     let Some(first) = given.get("joint1") else {
         let message = format!("{} has no `joint1`", element.called());
-        return Err(Fault::at(element.place, message, "joint1, joint2 and polycoef"));
+        return Err(Fault::at(element.place, message, "give joint1, joint2 and polycoef"));
     };
     let Some(second) = given.get("joint2") else {
-        return Ok(Some("a joint alone is held by no coupling"));
+        return Ok(Some("a coupling of one joint is not supported"));
     };
     let mut polynomial = given.numbers("polycoef", 1, 5)?.unwrap_or_else(|| vec![0.0, 1.0]);
     polynomial.resize(5, 0.0);
     if polynomial[2..].iter().any(|coefficient| *coefficient != 0.0) {
-        return Ok(Some("a scene couples joints linearly"));
+        return Ok(Some("only linear couplings are supported"));
     }
     let [constant, ratio] = [polynomial[0], polynomial[1]];
     if ratio == 0.0 {
-        return Ok(Some("a joint alone is held by no coupling"));
+        return Ok(Some("a coupling of one joint is not supported"));
     }
     let (Some(one), Some(two)) = (term(mechanism, first, 1.0)?, term(mechanism, second, -ratio)?)
     else {
-        return Ok(Some("its joints are no hinges and slides of a joint of the scene"));
+        return Ok(Some("its joints are not hinges or slides of the scene"));
     };
     if one.axis == two.axis {
         return Ok(Some("it couples a joint with itself"));
@@ -101,7 +101,7 @@ pub(crate) fn equality(
     Ok(None)
 }
 
-/// Adds couplings for the spring and the range of a fixed tendon; otherwise the reason why a scene has none.
+/// Adds couplings for the spring and the range of a fixed tendon, or returns the reason why it has no counterpart.
 pub(crate) fn tendon(
     mechanism: &mut Mechanism<'_>,
     given: &Attributes<'_>,
@@ -118,35 +118,35 @@ pub(crate) fn tendon(
     let range = given.numbers("range", 2, 2)?.filter(|_| limited && !settings.is_off("limit"));
     if stiffness_of_spring == 0.0 && damping == 0.0 && range.is_none() {
         let called = element.called();
-        mechanism.notes.push(format!("{called} has no force of its own and is left out"));
+        mechanism.notes.push(format!("{called} exerts no force and is left out"));
         return Ok(None);
     }
     if range.as_ref().is_some_and(|range| range[0] >= range[1]) {
-        return Ok(Some("its range has no extent"));
+        return Ok(Some("its range is empty"));
     }
     let mut terms = Vec::new();
     for child in element.children.iter().filter(|child| child.name == "joint") {
         let own = Attributes::own(child);
         let Some(named) = own.get("joint") else {
             let message = format!("{} has no `joint`", child.called());
-            return Err(Fault::at(child.place, message, "joint and coef"));
+            return Err(Fault::at(child.place, message, "give joint and coef"));
         };
         let factor = own.numbers("coef", 1, 1)?.map_or(0.0, |numbers| numbers[0]);
         let Some(term) = term(mechanism, named, factor)? else {
-            return Ok(Some("its joints are no hinges and slides of a joint of the scene"));
+            return Ok(Some("its joints are not hinges or slides of the scene"));
         };
         if factor != 0.0 {
             terms.push(term);
         }
     }
     if !(1..=MOST).contains(&terms.len()) {
-        return Ok(Some("a scene couples one to three joints"));
+        return Ok(Some("only couplings of one to three joints are supported"));
     }
     if stiffness_of_spring < 0.0 || damping < 0.0 {
-        return Ok(Some("its stiffness and damping are not ≥ 0"));
+        return Ok(Some("its stiffness or damping is negative"));
     }
     if stiffness_of_spring == 0.0 && damping > 0.0 {
-        return Ok(Some("a damper across joints takes a spring beside it"));
+        return Ok(Some("a damper across joints requires a spring"));
     }
     let sum = |q: fn(&Term<'_>) -> f64| terms.iter().map(|term| term.factor * q(term)).sum::<f64>();
     let (start, rest) = (sum(|term| term.start), sum(|term| term.joint.spring_reference));
@@ -168,12 +168,12 @@ pub(crate) fn tendon(
     };
     if stiffness_of_spring > 0.0 {
         let lengths = given.numbers("springlength", 1, 2)?.unwrap_or_else(|| vec![-1.0]);
-        // A length of −1 is that at which the springs of joints are at rest; others may be negative.
+        // A length of −1 means the length at which the joint springs are at rest; other lengths may be negative.
         let automatic = lengths.iter().all(|length| *length == -1.0);
         let first = if automatic { rest } else { lengths[0] };
         let last = lengths.get(1).copied().filter(|_| !automatic).unwrap_or(first);
         if last > first && damping > 0.0 {
-            return Ok(Some("between its two spring lengths a damper stays alone"));
+            return Ok(Some("between its two spring lengths only the damper acts"));
         }
         add(&name, [first, last.max(first)], stiffness_of_spring, damping);
     }

@@ -1,7 +1,7 @@
 //! Classes of attributes, and attributes as numbers.
 //!
-//! `<default>` sections `=> class, element => attributes`. A class has what its parent has and what it
-//! gives itself; an element what it gives itself, then what its class does.
+//! `<default>` sections `=> class, element => attributes`. A class inherits and overrides its parent's attributes; an
+//! element overrides those of its class.
 
 use std::collections::BTreeMap;
 
@@ -12,10 +12,10 @@ use crate::element::{Attribute, Element};
 use crate::error::Fault;
 use crate::place::Place;
 
-/// The class of what names none.
+/// The default class.
 pub(crate) const MAIN: &str = "main";
 
-/// Actuators in their forms, which have one class among them all.
+/// Forms of actuators, which share one class.
 const SHORTCUTS: &[&str] = &[
     "general",
     "motor",
@@ -31,8 +31,7 @@ const SHORTCUTS: &[&str] = &[
     "dcmotor",
 ];
 
-/// The attributes of elements by their kinds; of actuators in any form together, and as they stand in their
-/// order.
+/// The attributes of elements by kind; those of actuators of any form merged, and separately in order.
 #[derive(Clone, Debug, Default)]
 struct Class {
     kinds: BTreeMap<String, Vec<Attribute>>,
@@ -46,7 +45,7 @@ pub(crate) struct Defaults {
 }
 
 impl Defaults {
-    /// Reads the sections in their order.
+    /// Reads the sections in order.
     pub(crate) fn read(root: &Element) -> Result<Self, Fault> {
         let mut defaults = Self::default();
         defaults.classes.insert(MAIN.into(), Class::default());
@@ -75,15 +74,15 @@ impl Defaults {
         self.classes.insert(name.to_owned(), class.clone());
         for child in section.children.iter().filter(|child| child.name == "default") {
             let Some(name) = child.text("class") else {
-                let help = "<default class=\"…\">: within another class each has a name";
-                return Err(Fault::at(child.place, "has no class", help));
+                let help = "give <default class=\"…\">: a nested class needs a name";
+                return Err(Fault::at(child.place, "<default> has no `class`", help));
             };
             self.class(child, name, class.clone())?;
         }
         Ok(())
     }
 
-    /// The attributes of an element; `within` is the class of what it stands in.
+    /// The attributes of an element; `within` is the class of its parent.
     pub(crate) fn of<'e>(
         &'e self,
         element: &'e Element,
@@ -92,12 +91,12 @@ impl Defaults {
         self.of_kind(element, &element.name, within)
     }
 
-    /// The actuators that a class gives, in their order.
+    /// The actuators of a class, in order.
     pub(crate) fn shortcuts(&self, class: &str) -> &[Element] {
         self.classes.get(class).map_or(&[], |class| &class.shortcuts)
     }
 
-    /// The attributes of an element whose class knows it as `kind`.
+    /// The attributes of an element with the `kind` that classes use for it.
     pub(crate) fn of_kind<'e>(
         &'e self,
         element: &'e Element,
@@ -112,7 +111,7 @@ impl Defaults {
         Ok(Attributes { element, defaults })
     }
 
-    /// Refuses a class that there is not.
+    /// Refuses an unknown class.
     pub(crate) fn check(&self, name: &str, place: Place) -> Result<(), Fault> {
         self.class_of(name, place).map(drop)
     }
@@ -120,15 +119,15 @@ impl Defaults {
     fn class_of(&self, name: &str, place: Place) -> Result<&Class, Fault> {
         self.classes.get(name).ok_or_else(|| {
             let meant = nearest(name, self.classes.keys().map(String::as_str));
-            let help = meant.map_or("a class of a <default>".into(), |meant| {
-                format!("a class of a <default>: did you mean \"{meant}\"?")
+            let help = meant.map_or("expected the class of a <default>".into(), |meant| {
+                format!("expected the class of a <default>: did you mean \"{meant}\"?")
             });
-            Fault::at(place, format!("there is no class \"{name}\""), help)
+            Fault::at(place, format!("unknown class \"{name}\""), help)
         })
     }
 }
 
-/// The attributes of an element, its class's included.
+/// The attributes of an element, including those of its class.
 #[derive(Clone, Copy)]
 pub(crate) struct Attributes<'e> {
     /// The element.
@@ -137,47 +136,47 @@ pub(crate) struct Attributes<'e> {
 }
 
 impl<'e> Attributes<'e> {
-    /// Those of an element without a class.
+    /// The element's own attributes, without a class.
     pub(crate) fn own(element: &'e Element) -> Self {
         Self { element, defaults: &[] }
     }
 
-    /// One by its name.
+    /// An attribute by name.
     pub(crate) fn get(&self, name: &str) -> Option<&'e Attribute> {
         let default = || self.defaults.iter().find(|attribute| attribute.name == name);
         self.element.attribute(name).or_else(default)
     }
 
-    /// The text of one.
+    /// The text of an attribute.
     pub(crate) fn text(&self, name: &str) -> Option<&'e str> {
         self.get(name).map(|attribute| attribute.value.as_str())
     }
 
-    /// Where one stands, else where the element does.
+    /// The position of an attribute, else of the element.
     pub(crate) fn place(&self, name: &str) -> Place {
         self.element.attribute(name).map_or(self.element.place, |attribute| attribute.place)
     }
 
-    /// So many numbers at least and at most.
+    /// A given range of numbers.
     pub(crate) fn numbers(
         &self,
         name: &str,
         least: usize,
         most: usize,
     ) -> Result<Option<Vec<f64>>, Fault> {
-        // As in MuJoCo a blank value is none, and that of the class counts.
+        // As in MuJoCo a blank value is absent, and that of the class applies.
         let own = self.element.attribute(name).filter(|own| !own.value.trim().is_empty());
         let default = || self.defaults.iter().find(|attribute| attribute.name == name);
         let given = own.or_else(default).filter(|given| !given.value.trim().is_empty());
         let Some(attribute) = given else { return Ok(None) };
         let expected = || match (least, most) {
             (1, 1) => "a number".to_owned(),
-            _ if least == most => format!("{least} numbers with blanks between them"),
-            _ => format!("{least} to {most} numbers with blanks between them"),
+            _ if least == most => format!("{least} numbers separated by blanks"),
+            _ => format!("{least} to {most} numbers separated by blanks"),
         };
         let refuse = |what: String| {
             let message = format!("`{name}` {what}");
-            Fault::at(attribute.place, message, format!("`{name}` is {}", expected()))
+            Fault::at(attribute.place, message, format!("`{name}` must be {}", expected()))
         };
         let words: Vec<&str> = attribute.value.split_ascii_whitespace().collect();
         if !(least..=most).contains(&words.len()) {
@@ -185,7 +184,8 @@ impl<'e> Attributes<'e> {
         }
         let number = |word: &&str| {
             let number = word.parse::<f64>().ok().filter(|number| number.is_finite());
-            number.ok_or_else(|| refuse(format!("holds \"{word}\", which is no finite number")))
+            number
+                .ok_or_else(|| refuse(format!("contains \"{word}\", which is not a finite number")))
         };
         words.iter().map(number).collect::<Result<_, _>>().map(Some)
     }
@@ -195,13 +195,13 @@ impl<'e> Attributes<'e> {
         Ok(self.numbers(name, 1, 1)?.and_then(|numbers| numbers.first().copied()))
     }
 
-    /// A number that is not negative, with a default.
+    /// A non-negative number, with a default.
     pub(crate) fn magnitude(&self, name: &str, default: f64) -> Result<f64, Fault> {
         let number = self.number(name)?.unwrap_or(default);
         if number < 0.0 {
             let place = self.get(name).map_or(self.element.place, |attribute| attribute.place);
             let message = format!("`{name}` is {number:?}");
-            return Err(Fault::at(place, message, format!("`{name}` is a number ≥ 0")));
+            return Err(Fault::at(place, message, format!("`{name}` must be a number ≥ 0")));
         }
         Ok(number)
     }
@@ -211,14 +211,18 @@ impl<'e> Attributes<'e> {
         Ok(self.numbers(name, 3, 3)?.map(|numbers| Vector3::from_column_slice(&numbers)))
     }
 
-    /// One of some words, by its place among them.
+    /// The index of one of the given words.
     pub(crate) fn word(&self, name: &str, words: &[&str]) -> Result<Option<usize>, Fault> {
         let Some(attribute) = self.get(name) else { return Ok(None) };
         let found = words.iter().position(|word| *word == attribute.value);
         found.map(Some).ok_or_else(|| {
             let message = format!("`{name}` is \"{}\"", attribute.value);
             let list: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
-            Fault::at(attribute.place, message, format!("`{name}` is one of {}", list.join(", ")))
+            Fault::at(
+                attribute.place,
+                message,
+                format!("`{name}` must be one of {}", list.join(", ")),
+            )
         })
     }
 
@@ -227,12 +231,12 @@ impl<'e> Attributes<'e> {
         Ok(self.word(name, &["false", "true"])?.map_or(default, |word| word == 1))
     }
 
-    /// Whether a range counts: `NAMElimited`, or where that is `auto` whether the range is given.
+    /// Whether a range applies: `NAMElimited`, or for `auto` whether the range is given.
     pub(crate) fn limited(&self, name: &str, range: &str, automatic: bool) -> Result<bool, Fault> {
         Ok(match self.word(name, &["false", "true", "auto"])? {
             Some(0) => false,
             Some(1) => true,
-            // As in MuJoCo: `range="0 0"` is how a file takes back the range of a class.
+            // As in MuJoCo, `range="0 0"` cancels the range of a class.
             _ => automatic && self.numbers(range, 2, 2)?.is_some_and(|range| range[0] < range[1]),
         })
     }

@@ -1,7 +1,7 @@
-//! Elements of XML with their places; files that include each other become one tree.
+//! XML elements with their positions; included files are merged into one tree.
 //!
-//! `text, folder => tree`. An `<include file="…"/>` stands for what the root of that file holds; its
-//! path goes from the folder of the first file.
+//! `text, folder => tree`. An `<include file="…"/>` is replaced by the contents of that file's root; its path is
+//! relative to the folder of the first file.
 
 use std::path::Path;
 
@@ -11,11 +11,11 @@ use crate::error::{Fault, ImportError};
 use crate::file;
 use crate::place::{Place, Texts};
 
-/// As deep as elements may stand in each other; MuJoCo's own reader takes as many.
+/// Maximum nesting depth of elements, as in MuJoCo's reader.
 const DEPTH: usize = 500;
-/// So many elements and texts of one file are read.
+/// Maximum number of elements and texts of a file.
 const NODES: u32 = 10_000_000;
-/// An element has at most so many attributes: the reader of XML compares each with all others.
+/// Maximum number of attributes of an element: the XML reader compares each with all others.
 const ATTRIBUTES: usize = 1000;
 
 /// An element.
@@ -23,11 +23,11 @@ const ATTRIBUTES: usize = 1000;
 pub(crate) struct Element {
     /// Its name.
     pub(crate) name: String,
-    /// Its attributes in their order.
+    /// Its attributes in order.
     pub(crate) attributes: Vec<Attribute>,
-    /// The elements within.
+    /// Its child elements.
     pub(crate) children: Vec<Element>,
-    /// Its name in the text.
+    /// The position of its name in the text.
     pub(crate) place: Place,
 }
 
@@ -38,22 +38,22 @@ pub(crate) struct Attribute {
     pub(crate) name: String,
     /// Its value.
     pub(crate) value: String,
-    /// The value in the text.
+    /// The position of the value in the text.
     pub(crate) place: Place,
 }
 
 impl Element {
-    /// The attribute of a name.
+    /// The attribute with a name.
     pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute> {
         self.attributes.iter().find(|attribute| attribute.name == name)
     }
 
-    /// An attribute's value, `None` where it is not there.
+    /// An attribute's value; `None` if absent.
     pub(crate) fn text(&self, name: &str) -> Option<&str> {
         self.attribute(name).map(|attribute| attribute.value.as_str())
     }
 
-    /// The value of `name`, or else what it is called by its place.
+    /// A description of the element: its kind and name.
     pub(crate) fn called(&self) -> String {
         match self.text("name") {
             Some(name) => format!("{} `{name}`", self.name),
@@ -61,13 +61,13 @@ impl Element {
         }
     }
 
-    /// The elements of all sections of a name, as `<worldbody>` or `<actuator>`: a file may have several.
+    /// All sections with a name, such as `<worldbody>` or `<actuator>`: a file may have several.
     pub(crate) fn sections<'e>(&'e self, name: &str) -> impl Iterator<Item = &'e Element> {
         self.children.iter().filter(move |child| child.name == name)
     }
 }
 
-/// The texts, and what they hold together.
+/// The texts and the merged tree.
 pub(crate) struct Document {
     /// The texts.
     pub(crate) texts: Texts,
@@ -76,7 +76,7 @@ pub(crate) struct Document {
 }
 
 impl Document {
-    /// Reads a text and what it includes.
+    /// Reads a text and its included files.
     pub(crate) fn read(text: &str, name: &str, folder: &Path) -> Result<Self, ImportError> {
         let mut texts = Texts::default();
         let mut root = parse(text, name, None, &mut texts)?;
@@ -84,8 +84,8 @@ impl Document {
             "mujoco" => include(&mut root, folder, &mut texts)?,
             "robot" => {}
             other => {
-                let found = format!("begins with <{other}>");
-                let help = "MJCF begins with <mujoco>, URDF with <robot>";
+                let found = format!("the root element is <{other}>");
+                let help = "expected <mujoco> (MJCF) or <robot> (URDF)";
                 return Err(Fault::at(root.place, found, help).refuse(&texts));
             }
         }
@@ -93,7 +93,7 @@ impl Document {
     }
 }
 
-/// Puts what files hold in place of the elements that include them.
+/// Replaces include elements by the contents of the included files.
 fn include(element: &mut Element, folder: &Path, texts: &mut Texts) -> Result<(), ImportError> {
     let mut children = Vec::with_capacity(element.children.len());
     for mut child in std::mem::take(&mut element.children) {
@@ -103,16 +103,16 @@ fn include(element: &mut Element, folder: &Path, texts: &mut Texts) -> Result<()
             continue;
         }
         let Some(file) = child.attribute("file") else {
-            let help = "<include file=\"…\"/>, from the folder of the first file";
-            return Err(Fault::at(child.place, "includes no file", help).refuse(texts));
+            let help = "give <include file=\"…\"/>, relative to the folder of the first file";
+            return Err(Fault::at(child.place, "<include> has no `file`", help).refuse(texts));
         };
         let name = folder.join(&file.value).display().to_string();
         let refuse = |message: String, help: &str, texts: &Texts| {
             Err(Fault::at(file.place, message, help).refuse(texts))
         };
         if texts.knows(&name) {
-            let message = format!("includes {name} a second time");
-            return refuse(message, "a file is included once, and not by itself", texts);
+            let message = format!("{name} is included a second time");
+            return refuse(message, "include each file once, and not from itself", texts);
         }
         let text = match file::within(folder, &file.value).and_then(|path| read_text(&path)) {
             Ok(text) => text,
@@ -120,7 +120,7 @@ fn include(element: &mut Element, folder: &Path, texts: &mut Texts) -> Result<()
                 let message = format!("cannot read {name}: {reason}");
                 return refuse(
                     message,
-                    "a path from and within the folder of the first file",
+                    "give a path within, and relative to, the folder of the first file",
                     texts,
                 );
             }
@@ -133,8 +133,8 @@ fn include(element: &mut Element, folder: &Path, texts: &mut Texts) -> Result<()
     Ok(())
 }
 
-/// Reads one text. What another includes may be any file, so until it is known to be XML its text is not
-/// shown: faults stand where it is included.
+/// Reads one text. An included file may be any file, so its text is not shown until it is known to be XML: faults are
+/// reported at the include.
 fn parse(
     text: &str,
     name: &str,
@@ -148,14 +148,14 @@ fn parse(
         }
         (Err(fault), None) => fault,
         (Err(fault), Some(place)) => {
-            let message = format!("{name} cannot be read as XML, see its line {}", fault.line());
-            Fault::at(place, message, "MJCF and URDF are well-formed XML in UTF-8")
+            let message = format!("{name} is not valid XML, see its line {}", fault.line());
+            Fault::at(place, message, "expected well-formed XML in UTF-8")
         }
     };
     Err(fault.refuse(texts))
 }
 
-/// The document of a text, or why it is none that is read.
+/// The document of a text, or why it is refused.
 fn xml(text: &str, file: usize) -> Result<roxmltree::Document<'_>, Fault> {
     if let Some(fault) = too_large(text, file) {
         return Err(fault);
@@ -163,12 +163,12 @@ fn xml(text: &str, file: usize) -> Result<roxmltree::Document<'_>, Fault> {
     let options = roxmltree::ParsingOptions { nodes_limit: NODES, ..Default::default() };
     roxmltree::Document::parse_with_options(text, options).map_err(|error| {
         let place = position(text, file, error.pos());
-        let message = format!("is no XML: {}", error_text(&error));
-        Fault::at(place, message, "MJCF and URDF are well-formed XML in UTF-8")
+        let message = format!("not valid XML: {}", error_text(&error));
+        Fault::at(place, message, "expected well-formed XML in UTF-8")
     })
 }
 
-/// What the reader says, without the place, which is shown.
+/// The reader's error without its position, which is shown separately.
 fn error_text(error: &roxmltree::Error) -> String {
     let text = error.to_string();
     match text.rsplit_once(" at ") {
@@ -177,7 +177,7 @@ fn error_text(error: &roxmltree::Error) -> String {
     }
 }
 
-/// The place of a line and a column.
+/// The position of a line and a column.
 fn position(text: &str, file: usize, at: roxmltree::TextPos) -> Place {
     let line = usize::try_from(at.row).unwrap_or(1);
     let column = usize::try_from(at.col).unwrap_or(1).saturating_sub(1);
@@ -188,8 +188,8 @@ fn position(text: &str, file: usize, at: roxmltree::TextPos) -> Place {
     Place { file, start, end, line }
 }
 
-/// Where elements stand deeper in each other than [`DEPTH`] or have more than [`ATTRIBUTES`]: found before the text is read as XML, for
-/// readers of XML call themselves at each level.
+/// The first element nested deeper than [`DEPTH`] or with more than [`ATTRIBUTES`] attributes: checked before parsing,
+/// because XML readers recurse at each level.
 fn too_large(text: &str, file: usize) -> Option<Fault> {
     let (mut depth, mut byte) = (0_usize, 0);
     let ends = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("<!", ">")];
@@ -209,17 +209,20 @@ fn too_large(text: &str, file: usize) -> Option<Fault> {
         }
         let problem = if depth > DEPTH {
             Some((
-                format!("stands in more than {DEPTH} elements"),
-                "bodies in bodies, no deeper than that",
+                format!("the element is nested more than {DEPTH} levels deep"),
+                "reduce the nesting depth",
             ))
         } else if attributes(tag) > ATTRIBUTES {
-            Some((format!("has more than {ATTRIBUTES} attributes"), "an element of MJCF"))
+            Some((
+                format!("the element has more than {ATTRIBUTES} attributes"),
+                "expected an element of MJCF",
+            ))
         } else {
             None
         };
         if let Some((message, help)) = problem {
             let line = text[..start].matches('\n').count() + 1;
-            // A tag without an end is not shown to the end of the text.
+            // An unterminated tag is not shown to the end of the text.
             let place = Place { file, start, end: start + 1, line };
             return Some(Fault::at(place, message, help));
         }
@@ -228,7 +231,7 @@ fn too_large(text: &str, file: usize) -> Option<Fault> {
     None
 }
 
-/// So many attributes has a tag: each has one sign of equality outside quotes.
+/// Number of attributes of a tag: each has one equals sign outside quotes.
 fn attributes(tag: &str) -> usize {
     let mut quote = None;
     let mut count = 0;
@@ -243,7 +246,7 @@ fn attributes(tag: &str) -> usize {
     count
 }
 
-/// The bytes of a tag, quotes with `>` in them included.
+/// The bytes of a tag, including any `>` within quotes.
 fn tag_length(text: &str) -> usize {
     let mut quote = None;
     for (byte, letter) in text.char_indices() {
@@ -257,7 +260,7 @@ fn tag_length(text: &str) -> usize {
     text.len()
 }
 
-/// Where lines begin.
+/// The starts of lines.
 struct Lines(Vec<usize>);
 
 impl Lines {
@@ -311,7 +314,7 @@ mod tests {
             else {
                 panic!("{text}");
             };
-            assert!(refusal.message.starts_with("is no XML: "), "{refusal}");
+            assert!(refusal.message.starts_with("not valid XML: "), "{refusal}");
             (refusal.line, refusal.column)
         };
         let places = [

@@ -9,11 +9,11 @@ use crate::mechanism::{Line, Mechanism, Rail, Torsion, rounded};
 use crate::notation::{text, vector};
 use crate::place::Source;
 
-/// An input as it acts on a coordinate: its type, its keys, the sign of its value.
+/// An input on a coordinate: its type, its keys, the sign of its value.
 pub(crate) type Drive = (&'static str, Vec<String>, f64);
 
 impl Coordinate {
-    /// Adds the element of a law; its name.
+    /// Adds the element of a law; returns its name.
     pub(crate) fn spring(
         &self,
         mechanism: &mut Mechanism<'_>,
@@ -25,7 +25,8 @@ impl Coordinate {
         let Law { stiffness, damping, rest, bias } = law;
         match *self {
             Self::Turn { between, axis, is_of_second, .. } => {
-                // At the twist θ the torque is k·(rest − θ) + bias; seen from the second body θ is turned round.
+                // At the torsion angle θ the torque is k·(rest − θ) + bias; as seen from the second body θ has the
+                // opposite sign.
                 let preload = stiffness * rest + bias;
                 let [first, second] = between;
                 let (between, preload) =
@@ -42,15 +43,15 @@ impl Coordinate {
                 });
             }
             Self::Slide { between, at, axis, travel } => {
-                // The end on the first body lies ahead on the axis, farther than the slide goes: then the length
-                // is a straight function of the coordinate, the pull goes along the axis, and both ends
-                // lie on one line, so that it turns nothing.
+                // The endpoint on the first body lies ahead on the axis, beyond the travel of the slide: the length is
+                // then linear in the coordinate, the force acts along the axis, and both endpoints lie on it, so that
+                // the force has no moment.
                 let zero = law.zero();
                 let reach = (2.0 * mechanism.size()).max(2.0 * travel);
                 let length = rounded(reach.max(4.0 * zero.abs()));
                 if travel == 0.0 {
                     mechanism.notes.push(format!(
-                        "`{name}` acts along a slide without a range: right up to a travel of {length} m"
+                        "`{name}` acts along a slide without a range: exact up to a travel of {length} m"
                     ));
                 }
                 mechanism.lines.push(Line {
@@ -93,7 +94,7 @@ impl Coordinate {
         name
     }
 
-    /// What an input needs to push along it; `element` is the TSDA that it acts beside.
+    /// Type and keys of an input along it; `element` is the TSDA along which it acts.
     pub(crate) fn drive(&self, mechanism: &Mechanism<'_>, element: &str) -> Drive {
         let vector = |v: Vector3<f64>| vector(v, 1.0);
         match self {
@@ -107,7 +108,7 @@ impl Coordinate {
                 ("torque", vec![format!("body = {body}"), format!("axis = {}", vector(*axis))], 1.0)
             }
             Self::Slide { .. } => ("actuator", vec![format!("target = {}", text(element))], 1.0),
-            // A TSDA pulls its ends together.
+            // A TSDA pulls its endpoints together.
             Self::Length { .. } => ("actuator", vec![format!("target = {}", text(element))], -1.0),
             Self::Shift { part, at, axis, .. } => {
                 let point = mechanism.within(Some(*part), *at);

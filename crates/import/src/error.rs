@@ -1,4 +1,4 @@
-//! Why a file is not imported: file, line, column, what is wrong, what would be right.
+//! Import errors: file, line, column, problem and remedy.
 
 use std::fmt::{self, Write as _};
 use std::io;
@@ -9,32 +9,32 @@ use thiserror::Error;
 use crate::omission::{self, Omission};
 use crate::place::{Place, Texts};
 
-/// A file that cannot be read, or that is refused.
+/// A file cannot be read or is refused.
 #[derive(Debug, Error)]
 pub enum ImportError {
     /// A file cannot be read.
-    // The reason is part of the message and therefore not a source, which would say it twice.
+    // The reason is part of the message; as a source it would be shown twice.
     #[error("cannot read {file}: {reason}")]
     Unreadable {
         /// Its name.
         file: String,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
     /// A file is refused.
     #[error("{0}")]
     Refused(Box<Refusal>),
-    /// The file holds what has no counterpart.
+    /// The file contains items without a counterpart.
     #[error("{}", omitted(file, omissions))]
     Omitted {
         /// Its name.
         file: String,
-        /// What that is.
+        /// Those items.
         omissions: Vec<Omission>,
     },
 }
 
-/// What is wrong with a file, and where.
+/// A problem in a file and its position.
 #[derive(Debug, Error)]
 #[error("{message}")]
 pub struct Refusal {
@@ -44,15 +44,15 @@ pub struct Refusal {
     pub line: usize,
     /// In characters from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The problem.
     pub message: String,
-    /// What would be right.
+    /// The remedy.
     pub help: String,
 }
 
 fn omitted(file: &str, omissions: &[Omission]) -> String {
     let (count, s) = (omissions.len(), if omissions.len() == 1 { "" } else { "s" });
-    let mut text = format!("{file} has {count} thing{s} without a counterpart");
+    let mut text = format!("{file} has {count} item{s} without a counterpart");
     for line in omission::table(omissions).lines() {
         let _ = write!(text, "\n  {line}");
     }
@@ -60,11 +60,11 @@ fn omitted(file: &str, omissions: &[Omission]) -> String {
 }
 
 impl ImportError {
-    /// What would be right.
+    /// The remedy.
     #[must_use]
     pub fn help(&self) -> String {
         match self {
-            Self::Unreadable { .. } => "MJCF and URDF are readable XML files in UTF-8".into(),
+            Self::Unreadable { .. } => "expected a readable MJCF or URDF file, XML in UTF-8".into(),
             Self::Refused(refusal) => refusal.help.clone(),
             Self::Omitted { omissions, .. } => {
                 let mut kinds: Vec<&str> = omissions.iter().map(|o| o.kind.name()).collect();
@@ -72,7 +72,10 @@ impl ImportError {
                 kinds.dedup();
                 let options: Vec<String> =
                     kinds.iter().map(|kind| format!("--ignore {kind}")).collect();
-                format!("{} leaves them out: the scene then moves without them", options.join(" "))
+                format!(
+                    "use {} to leave them out; the scene then moves without them",
+                    options.join(" ")
+                )
             }
         }
     }
@@ -97,7 +100,7 @@ impl Diagnostic for ImportError {
     }
 }
 
-/// What is wrong at a place, before the texts are at hand.
+/// A problem at a position, before the texts are available.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fault {
     place: Place,
@@ -106,17 +109,17 @@ pub(crate) struct Fault {
 }
 
 impl Fault {
-    /// Something is wrong at a place.
+    /// A problem at a position.
     pub(crate) fn at(place: Place, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { place, message: message.into(), help: help.into() }
     }
 
-    /// The line of its place.
+    /// The line of its position.
     pub(crate) fn line(&self) -> usize {
         self.place.line
     }
 
-    /// The refusal, with the text around it.
+    /// The refusal with the surrounding text.
     pub(crate) fn refuse(self, texts: &Texts) -> ImportError {
         let (file, text) = texts.file(self.place.file);
         let within =

@@ -1,4 +1,4 @@
-//! Geoms beside their mass: what might touch another, what can be seen.
+//! Geoms apart from their mass: contact surfaces and visible shapes.
 
 use nalgebra::{Isometry3, Vector3};
 
@@ -12,21 +12,21 @@ use crate::place::Place;
 pub(crate) struct Surface {
     /// Its body.
     pub(crate) body: usize,
-    /// Where it stands.
+    /// Its position in the file.
     pub(crate) place: Place,
-    /// What it is, in words.
+    /// Description.
     pub(crate) words: String,
-    /// The bits that it shows to others.
+    /// `contype` bits.
     pub(crate) kind: u32,
-    /// The bits of others that it meets.
+    /// `conaffinity` bits.
     pub(crate) affinity: u32,
     /// Its name.
     pub(crate) name: Option<String>,
-    /// What it is.
+    /// Its form.
     pub(crate) form: Form,
     /// Its pose in the frame of its body.
     pub(crate) pose: Isometry3<f64>,
-    /// How it rubs.
+    /// Its friction.
     pub(crate) grip: Grip,
 }
 
@@ -42,7 +42,7 @@ pub(crate) enum Form {
 }
 
 impl Form {
-    /// Spheres and points by which it meets a plane: places in its axes \[m\] and radii \[m\]; none where it is no
+    /// Spheres and points that contact a plane: positions in its axes \[m\] and radii \[m\]; none unless it is a
     /// sphere, capsule or box.
     pub(crate) fn spheres(self) -> Vec<(Vector3<f64>, f64)> {
         match self {
@@ -62,24 +62,24 @@ impl Form {
     }
 }
 
-/// How a surface rubs on another.
+/// Friction of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Grip {
-    /// Whose friction counts: the higher, both where they are equal.
+    /// Priority: the friction of the higher one applies, of both if equal.
     priority: f64,
-    /// What of the friction counts: nothing at 1, rolling at 6.
+    /// `condim`: 1 without friction, 6 with rolling resistance.
     dimension: f64,
     /// \[1, m\] coefficients of friction, of rolling resistance.
     friction: [f64; 2],
-    /// \[m\] by how much it is felt farther out.
+    /// \[m\] contact margin.
     margin: f64,
 }
 
 impl Grip {
-    /// That of a geom or, with `[0, 3]` as the places of its coefficients, of a pair.
+    /// The friction of a geom or, with `[0, 3]` as the indices of its coefficients, of a pair.
     ///
     /// # Errors
-    /// Where a value is no number.
+    /// If a value is not a number.
     pub(crate) fn of(given: &Attributes<'_>, [slide, roll]: [usize; 2]) -> Result<Self, Fault> {
         let friction = given.numbers("friction", 1, 5)?.unwrap_or_default();
         let part = |place: usize, default| friction.get(place).copied().unwrap_or(default);
@@ -91,9 +91,9 @@ impl Grip {
         })
     }
 
-    /// That of two surfaces.
+    /// The friction of two surfaces.
     pub(crate) fn and(self, other: Self) -> Self {
-        // Whatever the priority, a margin is that of both.
+        // The margin is that of both, regardless of priority.
         let margin = self.margin.max(other.margin);
         if self.priority != other.priority {
             let decides = if self.priority > other.priority { self } else { other };
@@ -118,34 +118,34 @@ impl Grip {
         if self.dimension > 4.0 { self.friction[1] } else { 0.0 }
     }
 
-    /// \[m\] by how much the surfaces are felt farther out.
+    /// \[m\] contact margin.
     pub(crate) fn margin(&self) -> f64 {
         self.margin
     }
 }
 
-/// A geom that can be seen.
+/// A visible geom.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Look {
     /// Its body.
     pub(crate) body: usize,
-    /// What it is; its axis is z.
+    /// Its solid; its axis is z.
     pub(crate) solid: Solid,
     /// Its pose in the frame of its body.
     pub(crate) pose: Isometry3<f64>,
-    /// `#rrggbb`, where it is given.
+    /// `#rrggbb`, if given.
     pub(crate) colour: Option<String>,
-    /// Where it stands.
+    /// Its position in the file.
     pub(crate) place: Place,
-    /// What it is, in words.
+    /// Description.
     pub(crate) words: String,
 }
 
 impl Look {
-    /// What can be seen of a geom; nothing where it is transparent.
+    /// The visible shape of a geom; none if it is transparent.
     ///
     /// # Errors
-    /// Where its colour is none.
+    /// If its colour is invalid.
     pub(crate) fn of(
         given: &Attributes<'_>,
         body: usize,
@@ -153,7 +153,7 @@ impl Look {
         pose: Isometry3<f64>,
         words: &str,
     ) -> Result<Option<Self>, Fault> {
-        // A colour moves nothing: one that cannot be read is left to the picture's default.
+        // A colour does not affect the motion: an invalid one is replaced by the default.
         let rgba = given.numbers("rgba", 4, 4).ok().flatten();
         if rgba.as_ref().is_some_and(|rgba| rgba[3] <= 0.0) {
             return Ok(None);

@@ -1,6 +1,6 @@
-//! What a hinge or a slide has to move at the file's pose, the rest of the mechanism free.
+//! Inertia driven by a hinge or a slide at the file's pose, with the rest of the mechanism free.
 //!
-//! `tree, poses => joint-space inertia M => 1/(M⁻¹)ᵢᵢ`, as MuJoCo has it for damping that is stated as a ratio.
+//! `tree, poses => joint-space inertia M => 1/(M⁻¹)ᵢᵢ`, as MuJoCo uses for damping ratios.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, Isometry3, Vector3};
 use crate::body::Freedom;
 use crate::tree::{Tree, moved};
 
-/// A velocity that a joint leaves free: its body, the axis, the point that stays; none: a shift.
+/// A free velocity of a joint: its body, the axis, the fixed point; none: a translation.
 struct Motion {
     body: usize,
     axis: Vector3<f64>,
@@ -38,8 +38,8 @@ fn motions(tree: &Tree, poses: &[Isometry3<f64>]) -> Vec<Motion> {
     found
 }
 
-/// \[kg·m², kg\] of the hinges and slides by their bodies, armatures included; none of a mechanism that moves
-/// something without mass.
+/// \[kg·m², kg\] inertia driven by the hinges and slides by body, including armatures; none for a mechanism with a
+/// massless moving body.
 pub(crate) fn driven(tree: &Tree, poses: &[Isometry3<f64>]) -> BTreeMap<usize, f64> {
     let motions = motions(tree, poses);
     let mut inertia = DMatrix::zeros(motions.len(), motions.len());

@@ -1,7 +1,7 @@
 //! The joints of the tree and their springs.
 //!
-//! `stage => joint between two parts; stiffness => torsion spring, or spring along the axis`. A body's weight
-//! that is taken off it becomes a load.
+//! `stage => joint between two parts; stiffness => torsion spring, or spring along the axis`. Gravity compensation
+//! becomes a load.
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
@@ -16,10 +16,10 @@ use crate::options::Options;
 use crate::settings::Settings;
 use crate::tree::Tree;
 
-/// \[rad\] a ball counts as not turned at the start.
+/// \[rad\] below this angle a ball is considered unrotated at the start.
 const UNTURNED: f64 = 1e-9;
 
-/// Adds the joints of all parts in their order.
+/// Adds the joints of all parts in order.
 pub(crate) fn add(
     mechanism: &mut Mechanism<'_>,
     stages: &[Stage],
@@ -37,7 +37,7 @@ pub(crate) fn add(
     weightless(mechanism, settings, omissions);
 }
 
-/// A body without a joint that is a part of its own.
+/// A body without a joint that is a separate part.
 fn welded(mechanism: &mut Mechanism<'_>, lead: usize, part: usize) {
     let body = &mechanism.tree.bodies[lead];
     let between = [mechanism.side(body.parent), Some(part)];
@@ -61,7 +61,7 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
     let joints: Vec<&Joint> = stage.joints.iter().filter_map(of).collect();
     let first = joints[0];
     let between = [mechanism.side(stage.base), mechanism.side(stage.body)];
-    // An axis turns with the joints before its own and with that itself.
+    // An axis rotates with its own joint and the joints before it.
     let axes: Vec<Vector3<f64>> = stage
         .joints
         .iter()
@@ -76,7 +76,7 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
         (Way::Universal, _) => Some(Type::Universal([axes[0], axes[1]])),
         (Way::Single, Freedom::Ball) | (Way::Spherical, _) => Some(Type::Spherical),
     };
-    // What a slide moves is where its hinge is: the axis of a cylindrical joint goes through that.
+    // The axis of a cylindrical joint passes through the hinge.
     let hinge = joints.iter().find(|joint| joint.freedom == Freedom::Hinge).copied();
     let anchor = match stage.way {
         Way::Cylindrical | Way::Plane => hinge.unwrap_or(first).anchor,
@@ -95,7 +95,8 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
         let sources: Vec<String> = joints.iter().map(|joint| joint.source().0).collect();
         let span = mechanism.span(between);
         let source = (sources.join(", "), first.place);
-        // Far out on a line its pull turns the body that has the line: rather a whole body than a carrier.
+        // A force far out on a line has a large moment on the body of the line, which should be a whole body rather
+        // than a carrier.
         let slides = matches!(kind, Type::Translational(_)) && tree.carries(stage.base);
         let between = if slides { [between[1], between[0]] } else { between };
         let mut link =
@@ -180,15 +181,15 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
     }
 }
 
-/// What an impact at [`LIMIT_SPEED`] at a limit returns of it: MuJoCo's own return next to nothing.
+/// Rebound speed of an impact on a limit, as a fraction of [`LIMIT_SPEED`]; MuJoCo's is almost 0.
 pub(crate) const RESTITUTION: f64 = 0.1;
 
 /// \[rad/s, m/s\]
 pub(crate) const LIMIT_SPEED: f64 = 1.0;
 
-/// Limits, friction and rotor of a joint as keys of a link; `None` where the link has none of that coordinate. `q` is the
-/// joint's coordinate where the scene begins, and whether the link's bodies are exchanged; `lightest` \[kg\] the lighter of
-/// its bodies.
+/// Limits, friction and rotor of a joint as keys of a link; `None` if the link does not have that coordinate. `q` is
+/// the initial coordinate of the joint, and whether the link's bodies are swapped; `lightest` \[kg\] the lighter of its
+/// bodies.
 fn keys(
     joint: &Joint,
     link: &Link,
@@ -207,12 +208,12 @@ fn keys(
     let stiffness = options.stiffness_of_limits(joint.freedom == Freedom::Hinge, link.span);
     let mut keys = Vec::new();
     let range = joint.range.filter(|_| joint.limited);
-    // A range without extent locks the joint, which no stop does.
+    // An empty range would lock the joint, which a stop cannot do.
     if range.is_some_and(|[from, to]| from >= to) {
         return None;
     }
     if let Some([from, to]) = range {
-        // A link whose bodies are exchanged goes the other way.
+        // A link with swapped bodies has the opposite sign.
         let (from, to, q) = if reversed { (-to, -from, -q) } else { (from, to, q) };
         let offset = if q == 0.0 { String::new() } else { format!("offset = {}, ", number(q)) };
         keys.push(format!(
@@ -225,7 +226,7 @@ fn keys(
         ));
     }
     if joint.armature > 0.0 {
-        // As stiff as the joint, but not faster than it vibrates.
+        // As stiff as the joint, but with no higher frequency.
         let gear = stiffness.min(joint.armature * options.stiffness / lightest);
         keys.push(format!(
             "{prefix}rotor = {{ inertia = {}, stiffness = {} }}",
@@ -246,8 +247,8 @@ fn last_of(tree: &Tree, stage: &Stage) -> usize {
 
 /// The springs of a ball: one about each axis of its body.
 ///
-/// MuJoCo's torque is stiffness·φ about the axis of the turn φ. The three twists are φ and 0, 0 where that
-/// is one of their axes; about other axes they agree with it up to φ³.
+/// MuJoCo's torque is stiffness·φ about the axis of the rotation φ. The three torsion angles are φ, 0 and 0 if that
+/// axis is one of theirs; about other axes they agree up to φ³.
 fn ball(
     mechanism: &mut Mechanism<'_>,
     stage: &Stage,
@@ -266,8 +267,8 @@ fn ball(
     let turned = relative(&pose.start).angle_to(&relative(&pose.first));
     if turned > UNTURNED && joint.stiffness > 0.0 {
         let what = format!(
-            "{}: stiffness {} N·m/rad, turned by {turned} rad at the start; a scene says such a spring \
-             from its rest on: a keyframe with that joint at 1 0 0 0",
+            "{}: stiffness {} N·m/rad, rotated by {turned} rad at the start; the spring must start at \
+             rest: use a keyframe with that joint at 1 0 0 0",
             joint.called(),
             joint.stiffness
         );
@@ -291,13 +292,13 @@ fn ball(
         mechanism.torsions.push(spring);
     }
     mechanism.notes.push(format!(
-        "{}: its spring and damper are three, about the axes of its body: exact for turns about one of \
-         them, else for small ones; at a turn φ the torque is off by about φ²/9 of it",
+        "{}: its spring and damper become three about the axes of its body: exact for rotations about \
+         one of them; for other rotations φ the relative error of the torque is about φ²/9",
         joint.called()
     ));
 }
 
-/// Lists the armatures that no rotor of a joint has, beside what their joints move without them: whether one may be left out.
+/// Lists the armatures without a rotor, with the inertia driven by their joints to show whether they are negligible.
 pub(crate) fn armatures(mechanism: &Mechanism<'_>, omissions: &mut Omissions) {
     for (number, body) in mechanism.tree.bodies.iter().enumerate() {
         let Some(joint) = body.joint.as_ref().filter(|joint| joint.armature > 0.0) else {
@@ -308,19 +309,20 @@ pub(crate) fn armatures(mechanism: &Mechanism<'_>, omissions: &mut Omissions) {
         }
         let [_, _, unit] = joint.freedom.units();
         let armature = joint.armature;
-        let beside = mechanism.driven.get(&number).map_or(String::new(), |driven| {
-            format!(" beside the {:.3e} that it moves", driven - armature)
-        });
+        let beside = mechanism
+            .driven
+            .get(&number)
+            .map_or(String::new(), |driven| format!(" (it moves {:.3e})", driven - armature));
         let name = joint.name.as_ref().unwrap_or(&body.name);
         let what = format!(
-            "{} `{name}`: armature {armature} {unit}{beside}: inertia of one joint, which no body has",
+            "{} `{name}`: armature {armature} {unit}{beside}: inertia about one joint, which no body can represent",
             joint.freedom.word()
         );
         omissions.add(Kind::Armature, joint.place, what);
     }
 }
 
-/// What is good to know of carriers, and where the centres of mass are that they have moved.
+/// Notes on carriers, and read-outs of the centres of mass that they have moved.
 fn carriers(mechanism: &mut Mechanism<'_>) {
     for shares in &mechanism.parts.shares {
         let body = &mechanism.tree.bodies[shares.body];
@@ -329,16 +331,16 @@ fn carriers(mechanism: &mut Mechanism<'_>) {
             let name = mechanism.name(Some(part)).to_owned();
             let mass = mechanism.parts.parts[part].mass.mass;
             let what = if *exact {
-                "taken off the bodies beside it where that changes no motion".to_owned()
+                "taken from the adjacent bodies without changing the motion".to_owned()
             } else {
                 let share = mechanism.options.carriers.unwrap_or(0.0);
                 format!(
-                    "of which `{}` gives {share} of its own: its motion is off by about as much",
+                    "taken from `{}` as a fraction {share}: its motion is off by about as much",
                     body.name
                 )
             };
             mechanism.notes.push(format!(
-                "body `{name}` stands between joints of `{}`: {mass:.3e} kg, {what}",
+                "body `{name}` is inserted between joints of `{}`: {mass:.3e} kg, {what}",
                 body.name
             ));
         }
@@ -361,11 +363,11 @@ fn carriers(mechanism: &mut Mechanism<'_>) {
     }
 }
 
-/// \[m\] a force that acts this close to a part's centre of mass, in radii of gyration, acts at it.
+/// A force within this many radii of gyration of a part's centre of mass is considered to act at it.
 const CENTRED: f64 = 1e-9;
 
-/// Weight that is taken off bodies: a constant force where it acts at the centre of mass of a part, as it
-/// does for bodies that are rigid with each other and have the same fraction taken off.
+/// Gravity compensation: a constant force where it acts at the centre of mass of a part, which is the case for rigidly
+/// connected bodies with the same compensated fraction.
 fn weightless(mechanism: &mut Mechanism<'_>, settings: &Settings, omissions: &mut Omissions) {
     let (tree, parts) = (mechanism.tree, mechanism.parts);
     for (number, part) in parts.parts.iter().enumerate() {
@@ -390,7 +392,7 @@ fn weightless(mechanism: &mut Mechanism<'_>, settings: &Settings, omissions: &mu
         let (words, place) = (words.join(", "), of(first).place);
         if arm.norm() > CENTRED * (moment + lifted.abs() * part.mass.gyration()) {
             let what = format!(
-                "{words}: it does not act at the centre of mass of all that is rigid with it"
+                "{words}: it does not act at the common centre of mass of the rigidly connected bodies"
             );
             omissions.add(Kind::GravityCompensation, place, what);
             continue;

@@ -1,4 +1,4 @@
-//! What a joint has that a scene has no counterpart for, with its size.
+//! Properties of a joint without a counterpart in a scene, with their magnitude.
 //!
 //! `attributes, joint => omissions`.
 
@@ -8,7 +8,7 @@ use crate::error::Fault;
 use crate::omission::{Kind, Omissions};
 use crate::settings::Settings;
 
-/// Lists what has no counterpart in a joint that is taken.
+/// Lists properties of an imported joint without a counterpart.
 pub(crate) fn of_joint(
     given: &Attributes<'_>,
     joint: &Joint,
@@ -28,7 +28,7 @@ pub(crate) fn of_joint(
     springs(given, joint, name, omissions)
 }
 
-/// Lists limits and friction of a coordinate that no joint of the scene has as its own.
+/// Lists limits and friction of a coordinate that no joint of the scene has.
 pub(crate) fn of_coordinate(joint: &Joint, name: &str, omissions: &mut Omissions) {
     let word = joint.freedom.word();
     let [coordinate, force, _] = joint.freedom.units();
@@ -46,7 +46,7 @@ pub(crate) fn of_coordinate(joint: &Joint, name: &str, omissions: &mut Omissions
     }
 }
 
-/// Springs and dampers that are no torsion spring about an axis and no line.
+/// Springs and dampers other than linear ones about or along an axis.
 fn springs(
     given: &Attributes<'_>,
     joint: &Joint,

@@ -1,43 +1,42 @@
-//! MuJoCo's MJCF and ROS's URDF become scenes.
+//! Import of MuJoCo's MJCF and ROS's URDF as scenes.
 //!
-//! `FILE.xml => bodies, joints, springs of a mechanism => TOML with where each part came from`. What the
-//! method has no counterpart for is a [`Omission`] with its line and its size, and refused unless its
-//! [`Kind`] is ignored. The modules in the order in which they stand on each other, each on those
-//! before it alone:
+//! `FILE.xml => bodies, joints, springs of a mechanism => TOML with the origin of each part`. Items without a
+//! counterpart become an [`Omission`] with line and magnitude, and are refused unless their [`Kind`] is ignored. The
+//! modules in dependency order, each using only those before it:
 //!
-//! - [`mod@place`]: texts and places in them.
-//! - `notation`: numbers and texts as TOML has them.
-//! - [`omission`]: what has no counterpart, by kinds.
-//! - [`error`]: what is refused, and where.
-//! - `file`: files that a model names.
-//! - `element`: elements of XML, files that include each other as one.
+//! - [`mod@place`]: texts and positions in them.
+//! - `notation`: numbers and strings in TOML notation.
+//! - [`omission`]: items without a counterpart, by kind.
+//! - [`error`]: import errors with their positions.
+//! - `file`: files referenced by a model.
+//! - `element`: XML elements, with included files merged.
 //! - `schema`: names of elements and attributes.
 //! - `defaults`: classes of attributes, and attributes as numbers.
 //! - `urdf`: URDF as elements of MJCF.
-//! - `settings`: what the file says of itself: units, sequences, gravity.
-//! - `mass`: mass, centre and inertia, of shapes, too.
-//! - `bulk`, `mesh`: what meshes hold.
-//! - `body`: one body, its joints, geoms and sites.
-//! - `geom`: geoms beside their mass: what touches, what can be seen.
-//! - `lacks`: what a joint has that a scene has no counterpart for.
+//! - `settings`: settings of the file: units, sequences, gravity.
+//! - `mass`: mass, centre and inertia, also of shapes.
+//! - `bulk`, `mesh`: mass properties of meshes.
+//! - `body`: one body with its joints, geoms and sites.
+//! - `geom`: geoms apart from their mass: contact surfaces and visible shapes.
+//! - `lacks`: properties of joints without a counterpart.
 //! - `weigh`: masses of bodies.
-//! - `tree`: all of them, in their frames.
-//! - `pose`: joint coordinates become poses.
-//! - [`options`]: what is stated rather than read.
-//! - `chain`: several joints of one body, and which joints of a scene say them.
+//! - `tree`: all bodies in their frames.
+//! - `pose`: joint coordinates to poses.
+//! - [`options`]: parameters that the file does not contain.
+//! - `chain`: several joints of one body, and the equivalent joints of a scene.
 //! - `carrier`: bodies between joints, and their mass.
-//! - `part`: bodies without joints become one with their parents.
-//! - `coordinate`: what springs and inputs act on.
+//! - `part`: merges bodies without joints with their parents.
+//! - `coordinate`: coordinates on which springs and inputs act.
 //! - `mechanism`: joints, springs, inputs, read-outs between parts.
 //! - `elements`: springs and inputs along coordinates.
-//! - `inertia`: what joints have to move.
+//! - `inertia`: inertia driven by joints.
 //! - `servo`: actuators that are linear laws.
-//! - `contact`: which geoms can touch, and contacts of solids with planes.
+//! - `contact`: pairs of geoms that can touch, and contacts of solids with planes.
 //! - `couplings`: equalities between joints and fixed tendons.
-//! - `joints`, `loops`, `tendons`, `actuators`, `signals`: what brings them in.
+//! - `joints`, `loops`, `tendons`, `actuators`, `signals`: conversion to the mechanism.
 //! - `write`: the scene's text.
 //! - `assembled`: springs of a mechanism whose loops are open at the file's pose.
-//! - `model`: all of it, from a file's elements to the scene.
+//! - `model`: the whole conversion, from a file's elements to the scene.
 
 pub mod error;
 pub mod omission;
@@ -89,22 +88,22 @@ use crate::element::Document;
 use crate::error::Fault;
 use crate::omission::Omissions;
 
-/// A scene that was made of a file.
+/// A scene made from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imported {
     /// Its text, TOML.
     pub scene: String,
-    /// What was left out of it, in the order of the file.
+    /// Omitted items in file order.
     pub omitted: Vec<Omission>,
-    /// What is good to know.
+    /// Notes for the user.
     pub notes: Vec<String>,
 }
 
-/// Makes a scene of an MJCF file and of what it includes, or of a URDF file.
+/// Makes a scene from an MJCF file and its included files, or from a URDF file.
 ///
 /// # Errors
-/// [`ImportError`]: where a file cannot be read or is neither, where a body cannot be in a scene, and
-/// where something has no counterpart and its kind is not ignored.
+/// [`ImportError`] if a file cannot be read or is neither, if a body is not valid in a scene, or if an item has no
+/// counterpart and its kind is not ignored.
 pub fn import(file: &Path, options: &Options) -> Result<Imported, ImportError> {
     let name = file.display().to_string();
     let unreadable = |reason| ImportError::Unreadable { file: name.clone(), reason };
@@ -113,8 +112,8 @@ pub fn import(file: &Path, options: &Options) -> Result<Imported, ImportError> {
     import_text(&text, &name, folder, options)
 }
 
-/// Makes a scene of the text of an MJCF or URDF file; `name` is what messages call it, files that it includes
-/// lie below `folder`.
+/// Makes a scene from the text of an MJCF or URDF file; messages refer to it as `name`, and included files are below
+/// `folder`.
 ///
 /// # Errors
 /// As [`import`].

@@ -1,7 +1,7 @@
-//! Equalities between bodies close loops.
+//! Equalities between bodies, which close loops.
 //!
-//! `<connect> => spherical joint, <weld> => fixed joint, <joint> => coupling`. Of bodies they hold at the file's pose, as in
-//! MuJoCo: its other end is where the first body's lies there. Of sites they may be open.
+//! `<connect> => spherical joint, <weld> => fixed joint, <joint> => coupling`. Between bodies they are closed at the
+//! file's pose, as in MuJoCo: the second endpoint coincides with the first there. Between sites they may be open.
 
 use nalgebra::{Isometry3, Vector3};
 
@@ -15,10 +15,10 @@ use crate::schema::EQUALITIES;
 use crate::settings::{Settings, quaternion};
 use crate::tree::{Tree, WORLD, moved};
 
-/// \[rad\] a weld may be turned so far at the start, and counts as not turned.
+/// \[rad\] below this angle a weld is considered unrotated at the start.
 const TURNED: f64 = 1e-6;
 
-/// Adds the joints of all equalities in their order.
+/// Adds the joints of all equalities in order.
 pub(crate) fn add(
     mechanism: &mut Mechanism<'_>,
     root: &Element,
@@ -32,7 +32,7 @@ pub(crate) fn add(
         for element in &section.children {
             let equality = Attributes::own(element);
             if !equality.flag("active", true)? {
-                mechanism.notes.push(format!("{} is not active and left out", element.called()));
+                mechanism.notes.push(format!("{} is inactive and left out", element.called()));
                 continue;
             }
             match element.name.as_str() {
@@ -43,7 +43,7 @@ pub(crate) fn add(
                     }
                 }
                 name if EQUALITIES.contains(&name) => {
-                    omit(element, "which couples what a scene leaves apart", omissions);
+                    omit(element, "a scene cannot couple these", omissions);
                 }
                 _ => {}
             }
@@ -63,7 +63,7 @@ fn omit(element: &Element, why: &str, omissions: &mut Omissions) {
     );
 }
 
-/// What an equality holds together: two bodies, a point of each, the second's frame in the first's.
+/// The bodies connected by an equality: two bodies, a point of each, the second's frame in the first's.
 struct Held {
     bodies: [usize; 2],
     points: [Vector3<f64>; 2],
@@ -80,14 +80,20 @@ fn joint(
         (Some(first), Some(second)) => of_sites(mechanism.tree, first, second)?,
         (None, None) => of_bodies(mechanism, given)?,
         _ => {
-            let message = format!("{} names one site", element.called());
-            return Err(Fault::at(element.place, message, "site1 and site2, or body1 and body2"));
+            let message = format!("{} names only one site", element.called());
+            return Err(Fault::at(
+                element.place,
+                message,
+                "give site1 and site2, or body1 and body2",
+            ));
         }
     };
     let between = held.bodies.map(|body| mechanism.side(body));
     let called = element.called();
     if between[0] == between[1] {
-        mechanism.notes.push(format!("{called} holds what is rigid already and is left out"));
+        mechanism.notes.push(format!(
+            "{called} connects bodies that are already rigid with each other and is left out"
+        ));
         return Ok(());
     }
     let [a, b] = held.bodies;
@@ -95,7 +101,9 @@ fn joint(
     let turned = (start[a].rotation * held.relative.rotation).angle_to(&start[b].rotation);
     let weld = element.name == "weld";
     if weld && turned > TURNED {
-        let what = format!("{called}: at the start its bodies are turned by {turned} rad in it");
+        let what = format!(
+            "{called}: at the start its bodies are rotated by {turned} rad from the welded pose"
+        );
         omissions.add(Kind::Equality, element.place, what);
         return Ok(());
     }
@@ -127,7 +135,7 @@ fn of_bodies(mechanism: &Mechanism<'_>, given: &Attributes<'_>) -> Result<Held, 
     let element = given.element;
     let missing = |name: &str| {
         let message = format!("{} has no `{name}`", element.called());
-        Fault::at(element.place, message, "body1, body2 and anchor, or site1 and site2")
+        Fault::at(element.place, message, "give body1, body2 and anchor, or site1 and site2")
     };
     let tree = mechanism.tree;
     let a = tree.body(given.get("body1").ok_or_else(|| missing("body1"))?)?;

@@ -1,13 +1,12 @@
 //! Mass, centre of mass and inertia; those of shapes.
 //!
-//! `shape, sizes, density or mass => mass, principal moments`. Two masses become one by the parallel axis
-//! theorem.
+//! `shape, sizes, density or mass => mass, principal moments`. Masses are combined by the parallel axis theorem.
 
 use std::f64::consts::PI;
 
 use nalgebra::{Isometry3, Matrix3, Matrix4, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
 
-/// Products of inertia below this share of the trace are rounding.
+/// Products of inertia below this fraction of the trace are rounding errors.
 const NEGLIGIBLE: f64 = 1e-12;
 
 /// Mass of a rigid body in some frame.
@@ -19,7 +18,7 @@ pub(crate) struct Mass {
     pub(crate) centre: Vector3<f64>,
     /// \[kg·m²\] about the centre of mass, in the frame's axes.
     inertia: Matrix3<f64>,
-    /// Principal axes and moments where they are known as written.
+    /// Principal axes and moments, if given explicitly.
     written: Option<(UnitQuaternion<f64>, [f64; 3])>,
 }
 
@@ -43,7 +42,7 @@ impl Mass {
         Self { mass, centre: frame.translation.vector, inertia, written: None }
     }
 
-    /// The same as seen from the frame in which its own frame is `pose`.
+    /// The same in the frame in which its own frame has pose `pose`.
     pub(crate) fn seen_from(&self, pose: &Isometry3<f64>) -> Self {
         let turn = pose.rotation.to_rotation_matrix();
         Self {
@@ -54,7 +53,7 @@ impl Mass {
         }
     }
 
-    /// Both together.
+    /// The combined mass.
     pub(crate) fn and(&self, other: &Self) -> Self {
         if other.mass == 0.0 {
             return self.clone();
@@ -72,7 +71,7 @@ impl Mass {
         Self { mass, centre, inertia: about(self) + about(other), written: None }
     }
 
-    /// So many times heavier.
+    /// Scaled by a factor.
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         let moments = |(axes, moments): (_, [f64; 3])| (axes, moments.map(|m| m * factor));
         Self {
@@ -104,7 +103,7 @@ impl Mass {
             return (UnitQuaternion::identity(), diagonal);
         }
         let eigen = SymmetricEigen::new(inertia);
-        // The largest moment first, as MuJoCo has it; each axis with its largest entry positive.
+        // Largest moment first, as in MuJoCo; each axis with its largest entry positive.
         let mut order = [0, 1, 2];
         order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
         let column = |which: usize| {
@@ -134,7 +133,7 @@ impl Mass {
         pseudo
     }
 
-    /// The mass of a pseudo-inertia, none of one without mass.
+    /// The mass of a pseudo-inertia; `None` without mass.
     pub(crate) fn of_pseudo(pseudo: &Matrix4<f64>) -> Self {
         let m = pseudo[(3, 3)];
         if m <= 0.0 {
@@ -156,7 +155,7 @@ impl Mass {
     }
 }
 
-/// Moments of which rounding alone has put one above the sum of the others, put right.
+/// Corrects moments of which one exceeds the sum of the others by rounding only.
 fn possible(mut moments: [f64; 3]) -> [f64; 3] {
     for i in 0..3 {
         let others = moments[(i + 1) % 3] + moments[(i + 2) % 3];
@@ -167,7 +166,7 @@ fn possible(mut moments: [f64; 3]) -> [f64; 3] {
     moments
 }
 
-/// A shape that has a volume; its axis is z.
+/// A solid shape; its axis is z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Solid {
     /// Radius.
@@ -194,7 +193,7 @@ impl Solid {
         }
     }
 
-    /// \[kg·m²\] principal moments of a mass of even density.
+    /// \[kg·m²\] principal moments at uniform density.
     pub(crate) fn moments(&self, mass: f64) -> [f64; 3] {
         let of_axes = |[a, b, c]: [f64; 3], share: f64| {
             [b * b + c * c, a * a + c * c, a * a + b * b].map(|sum| mass * share * sum)
@@ -208,7 +207,7 @@ impl Solid {
                 [across, across, 0.5 * mass * r * r]
             }
             Self::Capsule(r, h) => {
-                // Two half spheres, whose own centres lie 3r/8 beyond the ends of the cylinder.
+                // Two hemispheres, whose centroids are 3r/8 beyond the ends of the cylinder.
                 let ends = mass * 4.0 * r / (4.0 * r + 6.0 * h);
                 let middle = mass - ends;
                 let across = middle * (3.0 * r * r + 4.0 * h * h) / 12.0
@@ -218,7 +217,7 @@ impl Solid {
         }
     }
 
-    /// A line that says what it is.
+    /// A one-line description.
     pub(crate) fn words(&self) -> String {
         match self {
             Self::Sphere(r) => format!("sphere, radius {r} m"),
@@ -234,7 +233,7 @@ impl Solid {
 mod tests {
     use super::*;
 
-    /// Against sums over a grid of points.
+    /// Comparison with sums over a grid of points.
     #[test]
     fn moments_of_shapes_are_those_of_their_points() {
         let solids = [
@@ -272,7 +271,7 @@ mod tests {
         }
     }
 
-    /// Two halves of a box are the box, however it lies.
+    /// Two halves of a box combine to the box at any pose.
     #[test]
     fn halves_together_are_the_whole() {
         let turn = UnitQuaternion::from_euler_angles(0.3, -0.8, 1.9);

@@ -1,6 +1,6 @@
-//! Joints, springs, inputs and read-outs between parts, in the world where the scene begins.
+//! Joints, springs, inputs and read-outs between parts, in world coordinates at the start of the scene.
 //!
-//! `parts, poses => what a scene is written of`.
+//! `parts, poses => data of the scene`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -14,7 +14,7 @@ use crate::place::Source;
 use crate::pose::Pose;
 use crate::tree::{Tree, moved};
 
-/// Two points of a joint count as one that are not farther apart than this share of its span.
+/// Two points of a joint are considered coincident within this fraction of its span.
 const CLOSED: f64 = 1e-9;
 
 /// A type of joint.
@@ -24,13 +24,13 @@ pub(crate) enum Type {
     Revolute(Vector3<f64>),
     /// About a point.
     Spherical,
-    /// About an axis and along it.
+    /// About and along an axis.
     Cylindrical(Vector3<f64>),
     /// About an axis of the first body and one of the second.
     Universal([Vector3<f64>; 2]),
     /// Along an axis.
     Translational(Vector3<f64>),
-    /// None.
+    /// No motion.
     Fixed,
 }
 
@@ -39,27 +39,27 @@ pub(crate) enum Type {
 pub(crate) struct Link {
     /// Its name.
     pub(crate) name: String,
-    /// Its type, axes in the world.
+    /// Its type, with axes in world coordinates.
     pub(crate) kind: Type,
-    /// What it joins.
+    /// The connected parts.
     pub(crate) between: [Side; 2],
-    /// \[m\] its place on each, world.
+    /// \[m\] its point on each part, world.
     pub(crate) at: [Vector3<f64>; 2],
     /// \[m\]
     pub(crate) span: f64,
     /// Limits and friction, each `key = value`.
     pub(crate) keys: Vec<String>,
-    /// Where it comes from.
+    /// Its origin in the file.
     pub(crate) source: Source,
 }
 
 impl Link {
-    /// \[m\] how far it is open.
+    /// \[m\] its gap.
     pub(crate) fn gap(&self) -> f64 {
         (self.at[1] - self.at[0]).norm()
     }
 
-    /// Whether its two places are one but for rounding.
+    /// Whether its two points coincide up to rounding.
     pub(crate) fn is_closed(&self) -> bool {
         let size = self.span + self.at[0].norm();
         self.gap() <= CLOSED * size
@@ -71,11 +71,11 @@ impl Link {
 pub(crate) struct Axis {
     /// The name of the joint.
     pub(crate) joint: String,
-    /// Of a cylindrical joint which freedom.
+    /// The freedom, for a cylindrical joint.
     pub(crate) freedom: Option<&'static str>,
-    /// Whether the joint's bodies are exchanged: it goes the other way.
+    /// Whether the joint's bodies are swapped, which changes the sign.
     pub(crate) is_reversed: bool,
-    /// \[m\] of the joint.
+    /// \[m\] span of the joint.
     pub(crate) span: f64,
 }
 
@@ -86,15 +86,15 @@ pub(crate) struct Coupling {
     pub(crate) name: String,
     /// The coordinates and their factors.
     pub(crate) of: Vec<(Axis, f64)>,
-    /// The sum in the middle of its play, from where the scene begins.
+    /// The sum at the middle of its play, relative to the start of the scene.
     pub(crate) offset: f64,
-    /// Within which nothing acts.
+    /// Width of the range without force.
     pub(crate) play: f64,
     /// \[N·m/rad, N/m\]
     pub(crate) stiffness: f64,
     /// \[N·m·s/rad, N·s/m\]
     pub(crate) damping: f64,
-    /// Where it comes from.
+    /// Its origin in the file.
     pub(crate) source: Source,
 }
 
@@ -103,7 +103,7 @@ pub(crate) struct Coupling {
 pub(crate) struct Torsion {
     /// Its name.
     pub(crate) name: String,
-    /// What it turns.
+    /// The connected parts.
     pub(crate) between: [Side; 2],
     /// Its axis, world.
     pub(crate) axis: Vector3<f64>,
@@ -113,7 +113,7 @@ pub(crate) struct Torsion {
     pub(crate) damping: f64,
     /// \[N·m\]
     pub(crate) preload: f64,
-    /// Where it comes from.
+    /// Its origin in the file.
     pub(crate) source: Source,
 }
 
@@ -122,9 +122,9 @@ pub(crate) struct Torsion {
 pub(crate) struct Line {
     /// Its name.
     pub(crate) name: String,
-    /// What it pulls.
+    /// The connected parts.
     pub(crate) between: [Side; 2],
-    /// \[m\] its ends, world.
+    /// \[m\] its endpoints, world.
     pub(crate) points: [Vector3<f64>; 2],
     /// \[m\]
     pub(crate) free_length: f64,
@@ -132,7 +132,7 @@ pub(crate) struct Line {
     pub(crate) stiffness: f64,
     /// \[N·s/m\]
     pub(crate) damping: f64,
-    /// Where it comes from.
+    /// Its origin in the file.
     pub(crate) source: Source,
 }
 
@@ -141,13 +141,13 @@ pub(crate) struct Line {
 pub(crate) struct Rope {
     /// Its name.
     pub(crate) name: String,
-    /// What it holds.
+    /// The connected parts.
     pub(crate) between: [Side; 2],
-    /// \[m\] its ends, world.
+    /// \[m\] its endpoints, world.
     pub(crate) points: [Vector3<f64>; 2],
     /// \[m\]
     pub(crate) range: [f64; 2],
-    /// Where it comes from.
+    /// Its origin in the file.
     pub(crate) source: Source,
 }
 
@@ -168,22 +168,22 @@ pub(crate) struct Rail {
     pub(crate) stiffness: f64,
     /// \[N·s/m\]
     pub(crate) damping: f64,
-    /// Where it comes from.
+    /// Its origin in the file.
     pub(crate) source: Source,
 }
 
 /// A constant force at a centre of mass.
 #[derive(Clone, Debug)]
 pub(crate) struct Load {
-    /// On what.
+    /// The part.
     pub(crate) part: usize,
     /// \[N\] world.
     pub(crate) force: Vector3<f64>,
-    /// Where it comes from.
+    /// Its origin in the file.
     pub(crate) source: Source,
 }
 
-/// An input or a read-out: its name, its type and further keys as they are written.
+/// An input or a read-out with its keys as written.
 #[derive(Clone, Debug)]
 pub(crate) struct Signal {
     /// Its name.
@@ -192,7 +192,7 @@ pub(crate) struct Signal {
     pub(crate) kind: &'static str,
     /// Further keys, each `key = value`.
     pub(crate) keys: Vec<String>,
-    /// Where it comes from.
+    /// Its origin in the file.
     pub(crate) source: Source,
 }
 
@@ -200,9 +200,9 @@ pub(crate) struct Signal {
 pub(crate) struct Contact {
     /// Its name.
     pub(crate) name: String,
-    /// The part that has the plane, and the one that has the sphere.
+    /// The part with the plane and the part with the sphere.
     pub(crate) between: [Side; 2],
-    /// \[m\] a point of the plane, the centre of the sphere, world, where the scene begins.
+    /// \[m\] a point of the plane and the centre of the sphere, world, at the start of the scene.
     pub(crate) points: [Vector3<f64>; 2],
     /// Normal of the plane, world.
     pub(crate) normal: Vector3<f64>,
@@ -212,21 +212,21 @@ pub(crate) struct Contact {
     pub(crate) friction: f64,
     /// \[m\]
     pub(crate) rolling: f64,
-    /// \[N·s/m\] of the tangential give.
+    /// \[N·s/m\] tangential damping.
     pub(crate) damping: f64,
-    /// What it was made of.
+    /// Its origin in the file.
     pub(crate) source: Source,
 }
 
-/// What a scene is written of.
+/// The data of a scene.
 pub(crate) struct Mechanism<'m> {
     /// The bodies.
     pub(crate) tree: &'m Tree,
-    /// What is rigid with each other.
+    /// The rigid parts.
     pub(crate) parts: &'m Parts,
-    /// Where all is.
+    /// The poses.
     pub(crate) pose: &'m Pose,
-    /// What is stated.
+    /// The options.
     pub(crate) options: &'m Options,
     /// Joints.
     pub(crate) links: Vec<Link>,
@@ -240,7 +240,7 @@ pub(crate) struct Mechanism<'m> {
     pub(crate) rails: Vec<Rail>,
     /// Coordinates of joints, by their bodies.
     pub(crate) coordinates: BTreeMap<usize, Coordinate>,
-    /// Of those about or along the axis of a joint, that axis.
+    /// Joint axes of the coordinates that have one.
     pub(crate) axes: BTreeMap<usize, Axis>,
     /// Couplings of joints.
     pub(crate) couplings: Vec<Coupling>,
@@ -248,9 +248,9 @@ pub(crate) struct Mechanism<'m> {
     pub(crate) elements: BTreeMap<usize, String>,
     /// Tendons by their names, and the elements of their springs.
     pub(crate) tendons: BTreeMap<String, (Coordinate, Option<String>)>,
-    /// \[kg·m², kg\] what hinges and slides have to move, by their bodies.
+    /// \[kg·m², kg\] inertia driven by hinges and slides, by body.
     pub(crate) driven: BTreeMap<usize, f64>,
-    /// The bodies whose joints have their rotors.
+    /// Bodies whose joints have rotors.
     pub(crate) rotors: BTreeSet<usize>,
     /// Whether the scene is planar.
     pub(crate) planar: bool,
@@ -262,13 +262,13 @@ pub(crate) struct Mechanism<'m> {
     pub(crate) inputs: Vec<Signal>,
     /// Read-outs.
     pub(crate) readouts: Vec<Signal>,
-    /// What is good to know.
+    /// Notes for the user.
     pub(crate) notes: Vec<String>,
     names: BTreeSet<String>,
 }
 
 impl<'m> Mechanism<'m> {
-    /// Parts in their places, nothing between them.
+    /// Parts at their poses, without connections.
     pub(crate) fn new(
         tree: &'m Tree,
         parts: &'m Parts,
@@ -302,7 +302,7 @@ impl<'m> Mechanism<'m> {
         }
     }
 
-    /// A name that no joint or element has yet: the one wanted, or that with a number.
+    /// An unused name of a joint or element: the desired one, or that with a number.
     pub(crate) fn own_name(&mut self, wanted: &str) -> String {
         let wanted = fitting(wanted);
         let numbered = (2..).map(|number| format!("{wanted}-{number}"));
@@ -312,7 +312,7 @@ impl<'m> Mechanism<'m> {
         name
     }
 
-    /// A name that no body and no signal among `others` has: the one wanted, or that with its kind.
+    /// A name unused by bodies and by `others`: the desired one, or that with its kind.
     pub(crate) fn signal_name(&self, wanted: &str, kind: &str, others: &[Signal]) -> String {
         let taken = |name: &String| {
             let body = self.tree.bodies.iter().any(|body| body.name == *name);
@@ -324,12 +324,12 @@ impl<'m> Mechanism<'m> {
         names.find(|name| !taken(name)).unwrap_or_default()
     }
 
-    /// The name of a part, that of its first body.
+    /// The name of a part.
     pub(crate) fn name(&self, side: Side) -> &str {
         side.map_or("world", |part| &self.tree.bodies[self.parts.parts[part].named].name)
     }
 
-    /// The pose of a part's principal axes where the scene begins.
+    /// The initial pose of a part's principal axes.
     pub(crate) fn placed(&self, part: usize) -> Isometry3<f64> {
         let part = &self.parts.parts[part];
         self.pose.start[part.lead] * part.frame
@@ -340,18 +340,18 @@ impl<'m> Mechanism<'m> {
         self.parts.of[body].0
     }
 
-    /// A point of a body's frame, world, where the scene begins.
+    /// A point of a body's frame in world coordinates at the start of the scene.
     pub(crate) fn point(&self, body: usize, point: Vector3<f64>) -> Vector3<f64> {
         moved(&self.pose.start[body], point)
     }
 
-    /// A point of the world in the axes of a part, from its centre of mass.
+    /// A world point in the axes of a part, relative to its centre of mass.
     pub(crate) fn within(&self, side: Side, point: Vector3<f64>) -> Vector3<f64> {
         side.map_or(point, |part| moved(&self.placed(part).inverse(), point))
     }
 
-    /// \[m\] the span of a joint: as stated, else twice the radius of gyration of the smaller side, so
-    /// that it holds turns about as fast as it holds shifts.
+    /// \[m\] the span of a joint: as given, else twice the radius of gyration of the smaller side, so that rotational
+    /// and translational frequencies are similar.
     pub(crate) fn span(&self, between: [Side; 2]) -> f64 {
         let of = |part: usize| self.parts.parts[part].mass.gyration();
         let least = between.into_iter().flatten().map(of).fold(f64::INFINITY, f64::min);
@@ -359,7 +359,7 @@ impl<'m> Mechanism<'m> {
         self.options.span.unwrap_or(if chosen.is_finite() && chosen > 0.0 { chosen } else { 1.0 })
     }
 
-    /// \[m\] how far the parts lie apart at most, at least the span of the largest.
+    /// \[m\] the largest distance between parts, at least the span of the largest part.
     pub(crate) fn size(&self) -> f64 {
         let places: Vec<Vector3<f64>> =
             (0..self.parts.parts.len()).map(|part| self.placed(part).translation.vector).collect();
@@ -371,7 +371,7 @@ impl<'m> Mechanism<'m> {
     }
 }
 
-/// A size to two digits: where it was chosen, more would only look exact.
+/// Rounds a chosen value to two digits.
 pub(crate) fn rounded(size: f64) -> f64 {
     format!("{size:.1e}").parse().unwrap_or(size)
 }

@@ -1,7 +1,7 @@
 //! From the elements of a file to the scene.
 //!
-//! `root => settings, defaults, tree => mechanism => text`. A body that slides and turns in a plane may have
-//! no joint in a planar scene: that is tried first, and given up where the scene is not planar.
+//! `root => settings, defaults, tree => mechanism => text`. In a planar scene a body that moves freely in the plane
+//! needs no joint: this is tried first and abandoned if the scene is not planar.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ use crate::settings::{self, Settings};
 use crate::tree::{self, Tree};
 use crate::{actuators, assembled, inertia, joints, loops, schema, signals, tendons, write};
 
-/// What was read of a file.
+/// The contents of a file.
 pub(crate) struct Model<'m> {
     root: &'m Element,
     settings: Settings,
@@ -35,7 +35,7 @@ pub(crate) struct Model<'m> {
     omissions: Omissions,
 }
 
-/// A scene's text and what is good to know.
+/// A scene's text and notes.
 pub(crate) type Made = (String, Vec<String>);
 
 impl<'m> Model<'m> {
@@ -73,18 +73,18 @@ impl<'m> Model<'m> {
                 Ok(Some(planar)) if self.is_normal(&stages, planar.plane.normal().to_f64()) => {
                     return Ok(made);
                 }
-                Ok(_) => unplanar = Some("what is beside that body leaves its plane".to_owned()),
+                Ok(_) => unplanar = Some("other bodies leave its plane".to_owned()),
                 Err(error) => unplanar = Some(error.to_string()),
             }
         }
         self.made(texts, file, options, &around(false), unplanar.as_deref())
     }
 
-    /// Whether bodies that slide and turn in a plane do so in the one of this normal.
+    /// Whether planar motion of bodies is in the plane with this normal.
     fn is_normal(&self, stages: &[Stage], normal: [f64; 3]) -> bool {
         let normal = Vector3::from(normal);
         let mut planes = stages.iter().filter(|stage| stage.way == Way::Plane);
-        // The poses do not matter: from the world on, a hinge across two slides keeps its axis.
+        // The poses do not matter: relative to the world, a hinge after two slides keeps its axis.
         planes.all(|stage| {
             let turn = self.tree.bodies[self.tree.bodies[stage.body].chain].pose.rotation;
             let joints =
@@ -94,7 +94,7 @@ impl<'m> Model<'m> {
         })
     }
 
-    /// The scene, planar or not; `unplanar`: why it is not.
+    /// The scene, planar or spatial; `unplanar`: why it is not planar.
     fn made(
         &self,
         texts: &Texts,
@@ -134,16 +134,17 @@ impl<'m> Model<'m> {
     }
 }
 
-/// Leaves out all joints of a body but the first.
+/// Omits all joints of a body except the first.
 fn lock(tree: &mut Tree, body: usize, unplanar: Option<&str>, omissions: &mut Omissions) {
     let chain = tree.bodies[body].chain;
     let joints: Vec<_> = (chain..=body).filter_map(|one| tree.bodies[one].joint.as_ref()).collect();
     let called: Vec<String> = joints.iter().map(|joint| joint.called()).collect();
     let place = joints.get(1).map_or(tree.bodies[body].place, |joint| joint.place);
-    let planar = unplanar.map_or(String::new(), |why| format!(", nor is the model planar: {why}"));
+    let planar =
+        unplanar.map_or(String::new(), |why| format!(" and the model is not planar ({why})"));
     let what = format!(
-        "body `{}` has {}: no joints and bodies of a scene say that exactly{planar}; `--carriers 0.01` \
-         says it up to about 1 % of its mass; left out, it has the first alone",
+        "body `{}` has {}: a scene has no exact equivalent{planar}; `--carriers 0.01` is accurate to \
+         about 1 % of its mass; if ignored, only the first joint is kept",
         tree.bodies[body].name,
         called.join(", ")
     );

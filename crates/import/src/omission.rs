@@ -1,6 +1,6 @@
-//! What has no counterpart in a scene, by kinds.
+//! Items without a counterpart in a scene, by kind.
 //!
-//! `kind, place, what and how large => a line of a list`.
+//! `kind, position, description with magnitude => a line of a list`.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use crate::place::{Place, Texts};
 
 macro_rules! kinds {
     ($($(#[doc = $doc:literal])+ $variant:ident = $name:literal,)+) => {
-        /// A kind of thing that has no counterpart; by its name it can be ignored.
+        /// A kind of item without a counterpart; it can be ignored by its name.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Kind {
             $($(#[doc = $doc])+ $variant,)+
@@ -24,7 +24,7 @@ macro_rules! kinds {
                 match self { $(Self::$variant => $name,)+ }
             }
 
-            /// What it is, a line.
+            /// A one-line description.
             #[must_use]
             pub fn summary(self) -> &'static str {
                 match self { $(Self::$variant => concat!($($doc),+).trim_ascii(),)+ }
@@ -40,33 +40,33 @@ kinds! {
     Limit = "limit",
     /// inertia that an actuator adds to a joint
     Armature = "armature",
-    /// dry friction of tendons, and of joints that a scene has not one by one
+    /// dry friction of tendons, and of joints that a scene merges into one
     FrictionLoss = "frictionloss",
-    /// joints of a body that no joints of a scene say exactly
+    /// joints of a body without an exact equivalent in a scene
     Joints = "joints",
-    /// springs of balls that start turned, springs and dampers of free bodies, stiffness that is not linear
+    /// springs of balls that start rotated, springs and dampers of free bodies, nonlinear stiffness
     Spring = "spring",
-    /// tendons that are no spring between two sites and no coupling of one to three joints
+    /// tendons other than springs between two sites and couplings of one to three joints
     Tendon = "tendon",
-    /// equalities between tendons and flexes, of joints by a curve, welds at another angle
+    /// equalities of tendons and flexes, nonlinear ones of joints, welds at another angle
     Equality = "equality",
-    /// actuators that are no linear law at a hinge, a slide or a tendon
+    /// actuators other than linear laws at a hinge, a slide or a tendon
     Actuator = "actuator",
-    /// compensation of gravity that is no constant force at a centre of mass
+    /// gravity compensation other than a constant force at a centre of mass
     GravityCompensation = "gravcomp",
-    /// wind and resistance of a medium
+    /// wind and drag of a medium
     Fluid = "fluid",
-    /// mass of meshes that cannot be read, of shapes around meshes, of shells of shapes
+    /// mass of unreadable meshes, of shapes fitted to meshes, of shells of shapes
     Mesh = "mesh",
-    /// bodies that are moved from outside
+    /// mocap bodies, which are moved from outside
     Mocap = "mocap",
     /// composites, flexes, replicas, attached models, plugins
     Generated = "generated",
-    /// elements and attributes of no known name
+    /// elements and attributes with unknown names
     Unknown = "unknown",
 }
 
-/// One thing that has no counterpart.
+/// One item without a counterpart.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Omission {
     /// Its kind.
@@ -75,11 +75,11 @@ pub struct Omission {
     pub file: String,
     /// Its line there, from 1.
     pub line: usize,
-    /// What it is and how large.
+    /// Description with magnitude.
     pub what: String,
 }
 
-/// A list with file and line, kind, what: one line each.
+/// A list of file and line, kind and description, one line per item.
 #[must_use]
 pub fn table(omissions: &[Omission]) -> String {
     let places: Vec<String> =
@@ -93,7 +93,7 @@ pub fn table(omissions: &[Omission]) -> String {
     text
 }
 
-/// What was found so far.
+/// The items found so far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Omissions {
     found: Vec<(Kind, Place, String)>,

@@ -1,24 +1,24 @@
-//! What is stated rather than read: stiffness and size of joints, what is left out.
+//! Parameters that the file does not contain: stiffness and size of joints, ignored kinds.
 //!
 //! `arguments => options`.
 
 use crate::omission::Kind;
 
-/// What becomes of a body without a joint.
+/// Treatment of bodies without joints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Weld {
-    /// It is one with its parent: no joint, no stiffness, as rigid as in MuJoCo.
+    /// Merge it with its parent: no joint, rigid as in MuJoCo.
     #[default]
     Merge,
-    /// It is a body of its own with a fixed joint, whose force can be read.
+    /// Keep it as a separate body with a fixed joint, whose force can be read.
     Fixed,
 }
 
-/// By how much a loop may stay open, as a fraction of the mechanism's size: CAD programs write poses
-/// with about six digits, and the errors of several add up in a loop.
+/// Allowed gap of a loop as a fraction of the mechanism's size: CAD programs write poses with about six digits, and
+/// their errors add up in a loop.
 pub const TOLERANCE: f64 = 1e-4;
 
-/// What is stated rather than read.
+/// Parameters that the file does not contain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The name of the scene; else that of the model, else of the file.
@@ -29,23 +29,23 @@ pub struct Options {
     pub damping: f64,
     /// \[m\] span of each joint, > 0; else twice the radius of gyration of the smaller of its bodies.
     pub span: Option<f64>,
-    /// \[m\] by how much a loop may stay open, > 0; else [`TOLERANCE`] times the size of the mechanism.
+    /// \[m\] allowed gap of a loop, > 0; else [`TOLERANCE`] times the size of the mechanism.
     pub tolerance: Option<f64>,
-    /// Fraction of a body's mass that a body between two of its joints takes where none is exact, > 0 and
-    /// < 1; else such a body is refused.
+    /// Fraction of a body's mass given to a body between two of its joints if no exact mass exists, > 0 and < 1; else
+    /// such a body is refused.
     pub carriers: Option<f64>,
     /// \[s\] simulated time, > 0.
     pub duration: f64,
-    /// What becomes of bodies without joints.
+    /// Treatment of bodies without joints.
     pub weld: Weld,
-    /// The keyframe at which the scene begins; else the file's pose.
+    /// The keyframe at which the scene starts; else the file's pose.
     pub keyframe: Option<String>,
-    /// Kinds of things that are left out.
+    /// Ignored kinds.
     pub ignored: Vec<Kind>,
 }
 
 impl Options {
-    /// \[N·m/rad, N/m\] how stiff limits of a hinge, of a slide are, whose joint has this span \[m\].
+    /// \[N·m/rad, N/m\] stiffness of the limits of a hinge and a slide with this joint span \[m\].
     pub(crate) fn stiffness_of_limits(&self, is_hinge: bool, span: f64) -> f64 {
         let arm = if is_hinge { 0.5 * span } else { 1.0 };
         self.stiffness * arm * arm

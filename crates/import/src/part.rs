@@ -1,6 +1,6 @@
-//! Bodies without joints become one with their parents.
+//! Merges bodies without joints with their parents.
 //!
-//! `tree => parts, each of one or more bodies; where each body lies in its part`.
+//! `tree => parts, each of one or more bodies; pose of each body in its part`.
 
 use std::collections::BTreeSet;
 
@@ -21,15 +21,15 @@ pub(crate) type Side = Option<usize>;
 /// Bodies that are rigid with each other.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
-    /// The first, in whose frame the part is described.
+    /// The first body, in whose frame the part is described.
     pub(crate) lead: usize,
-    /// The one by whose name it goes.
+    /// The body that gives the part its name.
     pub(crate) named: usize,
     /// All of them.
     pub(crate) bodies: Vec<usize>,
-    /// Their mass, in the lead's frame; without what carriers have of it.
+    /// Their mass in the lead's frame, without that of carriers.
     pub(crate) mass: Mass,
-    /// \[m\] their centre of mass, with that.
+    /// \[m\] their centre of mass, including carriers.
     pub(crate) whole: Vector3<f64>,
     /// Principal axes in the centre of mass, in the lead's frame.
     pub(crate) frame: Isometry3<f64>,
@@ -42,26 +42,25 @@ pub(crate) struct Part {
 pub(crate) struct Parts {
     /// In the order of their leads.
     pub(crate) parts: Vec<Part>,
-    /// The part of each body and its pose in the lead's frame; `None`: rigid with the world, and the
-    /// pose is that in the world.
+    /// The part of each body and its pose in the lead's frame; `None`: rigid with the world, with its world pose.
     pub(crate) of: Vec<(Option<usize>, Isometry3<f64>)>,
-    /// What became of carriers.
+    /// The carriers.
     pub(crate) shares: Vec<Shares>,
 }
 
-/// Why bodies are not put together.
+/// Why bodies cannot be merged.
 pub(crate) enum Unfit {
-    /// A body that cannot move so.
+    /// A body with an invalid mass.
     Fault(Fault),
-    /// A body whose carriers have no exact mass, with no share of its own stated.
+    /// A body whose carriers have no exact mass, without a given fraction.
     Carriers(usize),
 }
 
 impl Parts {
-    /// Puts bodies together.
+    /// Merges bodies.
     ///
     /// # Errors
-    /// Where a part has no mass or no inertia, and where no mass of a carrier is exact.
+    /// If a part has no mass or inertia, or a carrier has no exact mass.
     pub(crate) fn of(
         tree: &Tree,
         stages: &[Stage],
@@ -103,7 +102,7 @@ impl Parts {
         }
         if parts.is_empty() {
             let place = tree.bodies[WORLD + 1].place;
-            let help = "a <joint> or a <freejoint> in a body";
+            let help = "add a <joint> or a <freejoint> to a body";
             return Err(Fault::at(place, "no body has a joint: nothing moves", help).into());
         }
         let carries = |part: &Part| tree.carries(part.named);
@@ -133,7 +132,7 @@ impl Part {
     /// Finds the principal axes.
     ///
     /// # Errors
-    /// Where it has no mass or no inertia.
+    /// If it has no mass or no inertia.
     fn settle(&mut self, tree: &Tree, settings: &Settings) -> Result<(), Fault> {
         (self.frame, self.moments) = self.mass.principal_axes();
         let body = &tree.bodies[self.named];
@@ -144,12 +143,12 @@ impl Part {
             if let Some((why, place)) = self.bodies.iter().find_map(unweighed) {
                 return Err(Fault::at(place, format!("{message}: {why}"), REMEDY));
             }
-            let help = "an <inertial>, or geoms with a mass";
+            let help = "add an <inertial>, or geoms with a mass";
             return Err(Fault::at(body.place, message, help));
         }
         if self.moments.iter().any(|moment| *moment <= 0.0) {
             let message = format!("body `{}` has the principal moments {a}, {b}, {c}", body.name);
-            let help = "moments > 0 kg·m², or boundinertia in <compiler>";
+            let help = "give moments > 0 kg·m², or boundinertia in <compiler>";
             return Err(Fault::at(body.place, message, help));
         }
         if a > b + c || b > a + c || c > a + b {
@@ -157,7 +156,8 @@ impl Part {
                 "body `{}` has the principal moments {a}, {b}, {c}: one exceeds the sum of the others",
                 body.name
             );
-            let help = if settings.balance { "" } else { "balanceinertia=\"true\" in <compiler>" };
+            let help =
+                if settings.balance { "" } else { "set balanceinertia=\"true\" in <compiler>" };
             return Err(Fault::at(body.place, message, help));
         }
         Ok(())

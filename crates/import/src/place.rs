@@ -1,31 +1,31 @@
-//! Texts that were read, and places in them.
+//! Source texts and positions in them.
 //!
-//! `file, byte => line, column, what is shown`.
+//! `file, byte => line, column, excerpt`.
 
-/// A stretch of one of the texts.
+/// A span of one of the texts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Place {
-    /// Which text, in the order in which they were read.
+    /// Index of the text in reading order.
     pub(crate) file: usize,
     /// Its first byte.
     pub(crate) start: usize,
-    /// The byte behind its last.
+    /// End, exclusive.
     pub(crate) end: usize,
     /// Its line, from 1.
     pub(crate) line: usize,
 }
 
-/// Where something comes from: words and place.
+/// The origin of an item: description and position.
 pub(crate) type Source = (String, Place);
 
-/// The texts by their names.
+/// The texts by name.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Texts {
     files: Vec<(String, String)>,
 }
 
 impl Texts {
-    /// Keeps a text; the number that places call it by.
+    /// Stores a text; returns its index for positions.
     pub(crate) fn add(&mut self, name: &str, text: &str) -> usize {
         self.files.push((name.to_owned(), text.to_owned()));
         self.files.len() - 1
@@ -36,12 +36,12 @@ impl Texts {
         self.files.get(file).map_or(("", ""), |(name, text)| (name, text))
     }
 
-    /// How often a file was read so far, to tell a circle.
+    /// How often a file has been read, to detect cycles.
     pub(crate) fn knows(&self, name: &str) -> bool {
         self.files.iter().any(|(known, _)| known == name)
     }
 
-    /// A place as comments show it: its line, with the file where there is more than one.
+    /// A position for comments: its line, with the file if there are several.
     pub(crate) fn shown(&self, place: Place) -> String {
         match self.files.len() {
             0 | 1 => format!("line {}", place.line),

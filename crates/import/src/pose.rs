@@ -1,7 +1,7 @@
-//! Joint coordinates become poses.
+//! Joint coordinates to poses.
 //!
-//! `tree, coordinates => pose of each body in the world`. The file's pose has every joint at its `ref`; a
-//! keyframe gives other coordinates, in the order of the bodies.
+//! `tree, coordinates => world pose of each body`. The file's pose has every joint at its `ref`; a keyframe gives other
+//! coordinates in the order of the bodies.
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
@@ -17,9 +17,9 @@ use crate::tree::{Body, Tree, WORLD, moved};
 pub(crate) struct Pose {
     /// At the file's pose.
     pub(crate) first: Vec<Isometry3<f64>>,
-    /// Where the scene begins.
+    /// At the start of the scene.
     pub(crate) start: Vec<Isometry3<f64>>,
-    /// \[rad, m\] the coordinate of each body's hinge or slide there; 0 of what has neither.
+    /// \[rad, m\] initial coordinate of each body's hinge or slide; 0 without either.
     pub(crate) coordinates: Vec<f64>,
 }
 
@@ -42,7 +42,7 @@ impl Pose {
             return Ok(Self { start: first.clone(), first, coordinates });
         };
         if given.numbers("qvel", 0, usize::MAX)?.unwrap_or_default().iter().any(|v| *v != 0.0) {
-            let help = "a keyframe at rest: velocities of joints are not taken";
+            let help = "use a keyframe at rest: joint velocities are not imported";
             return Err(Fault::at(given.place("qvel"), "`qvel` is not 0", help));
         }
         let mut rest = values.as_slice();
@@ -56,8 +56,8 @@ impl Pose {
         Ok(Self { first, start, coordinates })
     }
 
-    /// The poses at which every spring of a hinge or a slide is at rest: there MuJoCo measures the lengths
-    /// that tendons take for their free ones.
+    /// The poses at which every spring of a hinge or slide is at rest: MuJoCo measures the free lengths of tendons
+    /// there.
     pub(crate) fn at_rest(tree: &Tree) -> Vec<Isometry3<f64>> {
         let rest: Vec<Option<[f64; 1]>> = tree
             .bodies
@@ -73,22 +73,22 @@ impl Pose {
     }
 }
 
-/// The keyframe of a name.
+/// The keyframe with a name.
 pub(crate) fn key<'e>(root: &'e Element, name: &str) -> Result<&'e Element, Fault> {
     let keys: Vec<&Element> =
         root.sections("keyframe").flat_map(|section| &section.children).collect();
     keys.iter().copied().find(|key| key.text("name") == Some(name)).ok_or_else(|| {
         let names: Vec<&str> = keys.iter().filter_map(|key| key.text("name")).collect();
         let help = if names.is_empty() {
-            "the file has no keyframe with a name".to_owned()
+            "the file has no named keyframe".to_owned()
         } else {
-            format!("its keyframes: {}", names.join(", "))
+            format!("known keyframes: {}", names.join(", "))
         };
-        Fault::at(root.place, format!("has no keyframe `{name}`"), help)
+        Fault::at(root.place, format!("unknown keyframe `{name}`"), help)
     })
 }
 
-/// Places each body in its parent, which is placed before it.
+/// Computes the pose of each body from that of its parent, which precedes it.
 fn place(tree: &Tree, given: &[Given<'_>]) -> (Vec<Isometry3<f64>>, Vec<f64>) {
     let mut poses: Vec<Isometry3<f64>> = Vec::with_capacity(tree.bodies.len());
     let mut coordinates = Vec::with_capacity(tree.bodies.len());

@@ -1,8 +1,7 @@
-//! Names of elements and attributes, so that what is misspelt is not left out unseen.
+//! Known names of elements and attributes, so that misspelt ones are reported.
 //!
-//! `tree => what has no known name`. Names are those of MuJoCo's XML reference. Attributes are looked at
-//! where a scene takes something from them; what only a picture, a solver or a file's size depends on is
-//! passed over.
+//! `tree => unknown names`. Names are those of MuJoCo's XML reference. Attributes are checked where a scene uses them;
+//! those that affect only rendering, the solver or the file size are skipped.
 
 use dbd_scene::nearest;
 
@@ -10,7 +9,7 @@ use crate::element::Element;
 use crate::error::Fault;
 use crate::omission::{Kind, Omissions};
 
-/// Sections of `<mujoco>`; those in which nothing is looked for come second.
+/// Sections of `<mujoco>`; the unchecked ones come second.
 const SECTIONS: &[&str] = &[
     "compiler",
     "option",
@@ -27,7 +26,7 @@ const SECTIONS: &[&str] = &[
 const PASSED_OVER: &[&str] =
     &["size", "statistic", "visual", "custom", "extension", "deformable", "include"];
 
-/// What may stand in a body or a frame.
+/// Elements allowed in a body or a frame.
 const BODY: &[&str] = &[
     "body",
     "frame",
@@ -47,7 +46,7 @@ const BODY: &[&str] = &[
 
 const POSE: &[&str] = &["pos", "quat", "axisangle", "euler", "xyaxes", "zaxis"];
 
-/// What an actuator of a linear law may have, in one of its forms.
+/// Attributes of an actuator with a linear law, in any form.
 const ACTUATOR: &[&str] = &[
     "actdim",
     "actearly",
@@ -93,7 +92,7 @@ const ACTUATOR: &[&str] = &[
     "velrange",
 ];
 
-/// What a tendon may have.
+/// Attributes of a tendon.
 const TENDON: &[&str] = &[
     "actuatorfrclimited",
     "actuatorfrcrange",
@@ -349,10 +348,10 @@ const ATTRIBUTES: &[Known] = &[
 pub(crate) const EQUALITIES: &[&str] =
     &["connect", "weld", "joint", "tendon", "flex", "flexvert", "flexstrain", "distance"];
 
-/// Lists elements and attributes of no known name.
+/// Lists elements and attributes with unknown names.
 ///
 /// # Errors
-/// Where a section has no known name: then all it holds would be left out.
+/// If a section has an unknown name: all its contents would be omitted.
 pub(crate) fn check(root: &Element, omissions: &mut Omissions) -> Result<(), Fault> {
     for section in &root.children {
         let name = section.name.as_str();
@@ -362,8 +361,8 @@ pub(crate) fn check(root: &Element, omissions: &mut Omissions) -> Result<(), Fau
         if !SECTIONS.contains(&name) {
             let known = SECTIONS.iter().chain(PASSED_OVER).copied();
             let meant = nearest(name, known).map(|meant| format!(": did you mean <{meant}>?"));
-            let help = format!("a section of MJCF{}", meant.unwrap_or_default());
-            return Err(Fault::at(section.place, format!("<{name}> is no section"), help));
+            let help = format!("expected a section of MJCF{}", meant.unwrap_or_default());
+            return Err(Fault::at(section.place, format!("unknown section <{name}>"), help));
         }
         attributes(section, if name == "worldbody" { name } else { "" }, omissions);
         match name {
@@ -406,7 +405,7 @@ fn defaults(class: &Element, omissions: &mut Omissions) {
     }
 }
 
-/// Lists elements within another that have no known name.
+/// Lists child elements with unknown names.
 pub(crate) fn children(element: &Element, known: &[&str], omissions: &mut Omissions) {
     for child in element.children.iter().filter(|child| !known.contains(&child.name.as_str())) {
         let meant = nearest(&child.name, known.iter().copied());

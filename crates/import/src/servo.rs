@@ -1,13 +1,13 @@
 //! Actuators whose force is linear in control, coordinate and rate.
 //!
-//! `shortcuts of classes and element => gear·(gain·u + b0 + b1·gear·q + b2·gear·q')`, as MuJoCo's compiler
-//! makes it: each shortcut writes into the same gains and biases, those of classes first.
+//! `shortcuts of classes and element => gear·(gain·u + b0 + b1·gear·q + b2·gear·q')`, as in MuJoCo's compiler: each
+//! shortcut writes into the same gains and biases, those of classes first.
 
 use crate::coordinate::Law;
 use crate::defaults::{Attributes, Defaults, MAIN};
 use crate::error::Fault;
 
-/// Shortcuts that are read.
+/// Supported shortcuts.
 const READ: &[&str] = &["motor", "position", "velocity", "general"];
 /// Shortcuts with one control each.
 const ONE_CONTROL: &[&str] = &[
@@ -22,7 +22,7 @@ const ONE_CONTROL: &[&str] = &[
     "adhesion",
 ];
 
-/// What an actuator does.
+/// The law of an actuator.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Servo {
     gains: Vec<f64>,
@@ -31,11 +31,11 @@ pub(crate) struct Servo {
     bias_type: String,
     dynamics: String,
     gear: f64,
-    /// The form that was written last.
+    /// The form written last.
     form: String,
 }
 
-/// Whether an actuator has one control, so that those after it can be counted.
+/// Whether an actuator has exactly one control, so that later controls can be indexed.
 pub(crate) fn has_one_control(name: &str) -> bool {
     ONE_CONTROL.contains(&name)
 }
@@ -50,12 +50,10 @@ impl Servo {
         if !READ.contains(&element.name.as_str()) {
             let why = match element.name.as_str() {
                 "intvelocity" => {
-                    "integrates its control: a caller that sums it up drives a <position>"
+                    "integrates its control: integrate in the caller and drive a <position>"
                 }
-                "damper" => {
-                    "multiplies its control with a rate: a stated damping is one of the joint"
-                }
-                _ => "is no linear law of its control, its coordinate and its rate",
+                "damper" => "multiplies its control by a rate: give a fixed damping at the joint",
+                _ => "is not linear in its control, coordinate and rate",
             };
             return Ok(Err(why.to_owned()));
         }
@@ -83,8 +81,8 @@ impl Servo {
         }
     }
 
-    /// Takes the attributes of an actuator element. A form other than that of the defaults begins from MuJoCo's own
-    /// values, but for `general`.
+    /// Applies the attributes of an actuator element. A form other than that of the defaults starts from MuJoCo's
+    /// default values, except `general`.
     fn write(&mut self, given: &Attributes<'_>) -> Result<(), Fault> {
         let form = given.element.name.as_str();
         if form != "general" && self.form != "general" && self.form != form {
@@ -108,8 +106,8 @@ impl Servo {
                         let place = given.place("dampratio");
                         return Err(Fault::at(
                             place,
-                            "`kv` stands beside `dampratio`",
-                            "one of them",
+                            "`kv` conflicts with `dampratio`",
+                            "give only one of them",
                         ));
                     }
                     (Some(_), None) => self.biases[2] = -given.magnitude("kv", 0.0)?,
@@ -149,12 +147,12 @@ impl Servo {
         Ok(())
     }
 
-    /// Why it is no linear law.
+    /// Why its law is not linear.
     fn lack(&self) -> Option<String> {
         let affine = self.gain_type == "affine" && self.gains[1..].iter().all(|gain| *gain == 0.0);
         if self.dynamics != "none" {
             return Some(format!(
-                "has a state of its own, dyntype {}: a caller filters",
+                "has an internal state, dyntype {}: filter in the caller",
                 self.dynamics
             ));
         }
@@ -163,12 +161,12 @@ impl Servo {
         }
         match self.bias_type.as_str() {
             "none" => None,
-            "affine" if self.biases[1] > 0.0 => Some("pushes away from where it is".into()),
+            "affine" if self.biases[1] > 0.0 => Some("has a negative stiffness".into()),
             "affine" if self.biases[2] > 0.0 && self.gains[0] != -self.biases[1] => {
-                Some("pushes the faster it goes".into())
+                Some("has a negative damping".into())
             }
             "affine" => None,
-            other => Some(format!("has a bias that is not linear, biastype {other}")),
+            other => Some(format!("has a nonlinear bias, biastype {other}")),
         }
     }
 
@@ -177,13 +175,12 @@ impl Servo {
         self.gear
     }
 
-    /// \[N·m, N\] its force for a control of 1.
+    /// \[N·m, N\] force per unit of control.
     pub(crate) fn per_control(&self) -> f64 {
         self.gear * self.gains[0]
     }
 
-    /// Its law without control. `start`: its coordinate there; `inertia`: what it drives, where that is
-    /// known, for a damping that is stated as a ratio.
+    /// Its law without control. `start`: initial coordinate; `inertia`: driven inertia, if known, for a damping ratio.
     pub(crate) fn law(&self, start: f64, inertia: Option<f64>) -> Option<Law> {
         if self.bias_type == "none" {
             return Some(Law::default());

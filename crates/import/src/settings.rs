@@ -1,6 +1,6 @@
-//! What a file says of itself: units and sequences of angles, where inertia comes from, gravity.
+//! Settings of a file: units and sequences of angles, source of inertia, gravity.
 //!
-//! `<compiler>, <option> => settings`; of several elements later attributes go before earlier ones.
+//! `<compiler>, <option> => settings`; later attributes override earlier ones.
 
 use std::path::{Path, PathBuf};
 
@@ -12,27 +12,27 @@ use crate::error::Fault;
 use crate::omission::{Kind, Omissions};
 use crate::place::Place;
 
-/// Where the inertia of a body comes from.
+/// Source of the inertia of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum InertiaSource {
-    /// `<inertial>` alone.
+    /// Only `<inertial>`.
     Inertial,
-    /// Its geoms, whatever `<inertial>` says.
+    /// Its geoms, regardless of `<inertial>`.
     Geoms,
     /// `<inertial>`, else its geoms.
     Either,
 }
 
-/// What a file says of itself.
+/// Settings of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Settings {
     /// `<mujoco model="…">`.
     pub(crate) model: Option<String>,
     /// Whether angles are degrees.
     pub(crate) degrees: bool,
-    /// The axes of three angles in their order; upper case: about axes that stay.
+    /// The axes of three angles in order; upper case: fixed axes.
     pub(crate) sequence: [u8; 3],
-    /// Where inertia comes from.
+    /// Source of inertia.
     pub(crate) inertia: InertiaSource,
     /// Groups of geoms that have mass.
     pub(crate) inertia_groups: [f64; 2],
@@ -40,30 +40,30 @@ pub(crate) struct Settings {
     pub(crate) bounds: [f64; 2],
     /// Whether impossible moments become their mean.
     pub(crate) balance: bool,
-    /// \[kg\] of all bodies; not positive: as they are.
+    /// \[kg\] total mass; not positive: unscaled.
     pub(crate) total_mass: f64,
     /// Whether a range alone makes a limit.
     pub(crate) automatic_limits: bool,
-    /// Whether geoms that touch nothing are dropped before masses are summed.
+    /// Whether geoms without contacts are dropped before masses are summed.
     pub(crate) discard_visual: bool,
-    /// The folder of meshes, from that of the model.
+    /// The folder of meshes, relative to that of the model.
     pub(crate) meshes: String,
-    /// Whether folders of files are cut off.
+    /// Whether folders are stripped from file names.
     pub(crate) strips_paths: bool,
     /// \[m/s²\]
     pub(crate) gravity: Vector3<f64>,
-    /// \[s\] the file's own step, where its kind has one.
+    /// \[s\] the file's time step, if its format has one.
     pub(crate) timestep: Option<f64>,
-    /// What the flags of `<option>` turn off.
+    /// Features disabled by the flags of `<option>`.
     pub(crate) off: Vec<String>,
-    /// Where the last `<compiler>` stands.
+    /// Position of the last `<compiler>`.
     pub(crate) compiler: Place,
 }
 
 /// Reads both sections.
 ///
 /// # Errors
-/// Where a value is none that it can have.
+/// If a value is invalid.
 pub(crate) fn read(root: &Element, omissions: &mut Omissions) -> Result<Settings, Fault> {
     let mut settings = Settings {
         model: root.text("model").filter(|name| !name.trim().is_empty()).map(str::to_owned),
@@ -101,7 +101,7 @@ fn compiler(settings: &mut Settings, given: &Attributes<'_>) -> Result<(), Fault
         settings.degrees = angle == 1;
     }
     if given.word("coordinate", &["local", "global"])? == Some(1) {
-        let help = "`coordinate` is \"local\"; MuJoCo before 2.3.4 converts such a file";
+        let help = "use coordinate=\"local\"; MuJoCo before 2.3.4 converts such a file";
         return Err(Fault::at(given.place("coordinate"), "`coordinate` is \"global\"", help));
     }
     if let Some(sequence) = given.get("eulerseq") {
@@ -109,7 +109,7 @@ fn compiler(settings: &mut Settings, given: &Attributes<'_>) -> Result<(), Fault
         let known = bytes.filter(|bytes| bytes.iter().all(|axis| b"xyzXYZ".contains(axis)));
         let Some(bytes) = known else {
             let message = format!("`eulerseq` is \"{}\"", sequence.value);
-            let help = "three of x, y, z (axes that turn along) and X, Y, Z (axes that stay)";
+            let help = "expected three of x, y, z (rotating axes) and X, Y, Z (fixed axes)";
             return Err(Fault::at(sequence.place, message, help));
         };
         settings.sequence = bytes;
@@ -163,7 +163,7 @@ fn option(
                 "enable" => {}
                 other => {
                     let message = format!("`{}` is \"{other}\"", attribute.name);
-                    let help = "a flag is \"enable\" or \"disable\"";
+                    let help = "expected \"enable\" or \"disable\"";
                     return Err(Fault::at(attribute.place, message, help));
                 }
             }
@@ -173,7 +173,7 @@ fn option(
 }
 
 impl Settings {
-    /// Whether a flag of `<option>` turns something off.
+    /// Whether a flag of `<option>` disables a feature.
     pub(crate) fn is_off(&self, flag: &str) -> bool {
         let on_its_own = self.off.iter().any(|name| name == flag);
         let by_another = match flag {
@@ -184,40 +184,40 @@ impl Settings {
         on_its_own || by_another.is_some_and(|other| self.off.iter().any(|name| name == other))
     }
 
-    /// The path of a mesh's file, from the folder of the model.
+    /// The path of a mesh file, relative to the folder of the model.
     pub(crate) fn mesh_path(&self, file: &str) -> PathBuf {
-        // MuJoCo takes either slash on every system.
+        // MuJoCo accepts either slash on every system.
         let file = file.replace('\\', "/");
         let name = if self.strips_paths { file.rsplit('/').next().unwrap_or(&file) } else { &file };
         Path::new(&self.meshes.replace('\\', "/")).join(name)
     }
 
-    /// \[rad\] of an angle of the file.
+    /// \[rad\] an angle of the file.
     pub(crate) fn angle(&self, angle: f64) -> f64 {
         if self.degrees { angle.to_radians() } else { angle }
     }
 
-    /// The pose that `pos` and one way of giving an orientation say.
+    /// The pose given by `pos` and one of the orientation attributes.
     pub(crate) fn pose(&self, given: &Attributes<'_>) -> Result<Isometry3<f64>, Fault> {
         let position = given.vector("pos")?.unwrap_or_default();
         let turn = self.orientation(given)?.unwrap_or_else(UnitQuaternion::identity);
         Ok(Isometry3::from_parts(Translation3::from(position), turn))
     }
 
-    /// The orientation, `None` where none is given.
+    /// The orientation; `None` if not given.
     pub(crate) fn orientation(
         &self,
         given: &Attributes<'_>,
     ) -> Result<Option<UnitQuaternion<f64>>, Fault> {
         const WAYS: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
-        // A way that the element gives goes before one of its class.
+        // An orientation of the element overrides one of its class.
         let is_given =
             |way: &&str| given.element.text(way).is_some_and(|text| !text.trim().is_empty());
         let own = WAYS.into_iter().filter(is_given);
         let ways: Vec<&str> = own.collect();
         if let [_, second, ..] = ways[..] {
-            let message = "is turned in two ways";
-            let help = format!("one of {}", WAYS.join(", "));
+            let message = "the orientation is given twice";
+            let help = format!("give one of {}", WAYS.join(", "));
             return Err(Fault::at(given.place(second), message, help));
         }
         let way = ways.first().copied().or(WAYS.into_iter().find(|way| given.get(way).is_some()));
@@ -229,8 +229,8 @@ impl Settings {
             Unit::try_new(vector, 1e-150).ok_or_else(|| {
                 Fault::at(
                     place,
-                    format!("`{way}` has no direction"),
-                    "a direction of any length but 0",
+                    format!("`{way}` has zero length"),
+                    "expected a vector of nonzero length",
                 )
             })
         };
@@ -238,8 +238,9 @@ impl Settings {
         Ok(Some(match way {
             "quat" => {
                 let [w, x, y, z] = [values[0], values[1], values[2], values[3]];
-                quaternion([w, x, y, z])
-                    .ok_or_else(|| Fault::at(place, "`quat` is 0", "w x y z of any length but 0"))?
+                quaternion([w, x, y, z]).ok_or_else(|| {
+                    Fault::at(place, "`quat` is 0", "expected w x y z of nonzero length")
+                })?
             }
             "axisangle" => {
                 UnitQuaternion::from_axis_angle(&unit(vector(0))?, self.angle(values[3]))
@@ -258,7 +259,7 @@ impl Settings {
         }))
     }
 
-    /// The turn by three angles in the file's sequence.
+    /// The rotation by three angles in the file's sequence.
     fn turned(&self, angles: &Vector3<f64>) -> UnitQuaternion<f64> {
         let mut turn = UnitQuaternion::identity();
         for (axis, angle) in self.sequence.iter().zip(angles.iter()) {
@@ -274,13 +275,13 @@ impl Settings {
     }
 }
 
-/// A quaternion of any length but 0, w first.
+/// A quaternion of nonzero length, w first.
 pub(crate) fn quaternion([w, x, y, z]: [f64; 4]) -> Option<UnitQuaternion<f64>> {
     let quaternion = nalgebra::Quaternion::new(w, x, y, z);
     UnitQuaternion::try_new(quaternion, 1e-150)
 }
 
-/// The least turn that brings z to a direction.
+/// The smallest rotation that aligns z with a direction.
 pub(crate) fn along(direction: &Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
     UnitQuaternion::rotation_between_axis(&Vector3::z_axis(), direction).unwrap_or_else(|| {
         UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)

@@ -1,7 +1,7 @@
 //! Sensors.
 //!
-//! `sensors of joints and points => read-outs`. They change no motion: what has no counterpart among them is
-//! noted and not refused.
+//! `sensors of joints and points => read-outs`. They do not affect the motion: those without a counterpart are noted
+//! and not refused.
 
 use crate::coordinate::Coordinate;
 use crate::element::Element;
@@ -21,12 +21,12 @@ pub(crate) fn add(mechanism: &mut Mechanism<'_>, root: &Element) -> Result<(), F
         let s = if left == 1 { "" } else { "s" };
         mechanism
             .notes
-            .push(format!("{left} sensor{s} of other kinds left out: they change no motion"));
+            .push(format!("{left} sensor{s} of other kinds left out; the motion is unaffected"));
     }
     Ok(())
 }
 
-/// Adds a sensor's read-out, if it has one.
+/// Adds the read-out of a sensor, if any.
 fn sensor(mechanism: &mut Mechanism<'_>, element: &Element) -> Result<bool, Fault> {
     let kind = element.name.as_str();
     let wanted = element.text("name").or(element.text("joint")).or(element.text("objname"));

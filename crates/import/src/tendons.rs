@@ -1,6 +1,6 @@
 //! Tendons.
 //!
-//! `<spatial> of two sites => TSDA, <fixed> => coupling`. Others are no spring between two points and are listed.
+//! `<spatial> of two sites => TSDA, <fixed> => coupling`. Others have no counterpart and are listed.
 
 use crate::coordinate::{Coordinate, Law};
 use crate::couplings;
@@ -13,7 +13,7 @@ use crate::pose::Pose;
 use crate::settings::Settings;
 use crate::tree::moved;
 
-/// Adds the springs of all tendons in their order.
+/// Adds the springs of all tendons in order.
 pub(crate) fn add(
     mechanism: &mut Mechanism<'_>,
     root: &Element,
@@ -37,7 +37,7 @@ pub(crate) fn add(
     Ok(())
 }
 
-/// Adds the spring of a tendon, or says why it has none.
+/// Adds the spring of a tendon, or returns why it has none.
 fn tendon(
     mechanism: &mut Mechanism<'_>,
     given: &Attributes<'_>,
@@ -50,23 +50,21 @@ fn tendon(
         return couplings::tendon(mechanism, given, settings);
     }
     let [first, second] = &element.children[..] else {
-        return Ok(Some("a scene has springs between two sites, none over others"));
+        return Ok(Some("only springs between two sites are supported"));
     };
     let (Some(one), Some(two)) = (first.attribute("site"), second.attribute("site")) else {
-        return Ok(Some(
-            "a scene has springs between two sites, none around geoms or over pulleys",
-        ));
+        return Ok(Some("springs around geoms or over pulleys are not supported"));
     };
     let ((a, pose_a), (b, pose_b)) = (mechanism.tree.site(one)?, mechanism.tree.site(two)?);
     let (at_a, at_b) = (pose_a.translation.vector, pose_b.translation.vector);
     let between = [mechanism.side(a), mechanism.side(b)];
     if between[0] == between[1] {
-        mechanism.notes.push(format!("{} keeps its length and is left out", element.called()));
+        mechanism.notes.push(format!("{} has constant length and is left out", element.called()));
         return Ok(None);
     }
     let lengths = given.numbers("springlength", 1, 2)?.unwrap_or_else(|| vec![-1.0]);
     if lengths.last().is_some_and(|last| *last != lengths[0]) {
-        return Ok(Some("between its two spring lengths nothing pulls: one length"));
+        return Ok(Some("two spring lengths are not supported: give one length"));
     }
     let off = |flag: &str, value: f64| if settings.is_off(flag) { 0.0 } else { value };
     let linear = |name: &str| -> Result<f64, Fault> {
@@ -75,7 +73,7 @@ fn tendon(
     let stiffness = off("spring", linear("stiffness")?);
     let damping = off("damper", linear("damping")?);
     if stiffness < 0.0 || damping < 0.0 {
-        return Ok(Some("its stiffness and damping are not ≥ 0"));
+        return Ok(Some("its stiffness or damping is negative"));
     }
     let free = if lengths[0] < 0.0 {
         let rest = Pose::at_rest(mechanism.tree);
@@ -84,7 +82,7 @@ fn tendon(
         lengths[0]
     };
     if free == 0.0 && damping > 0.0 {
-        return Ok(Some("a damper of no length brakes every motion, not that along it alone"));
+        return Ok(Some("a damper of zero length opposes motion in every direction"));
     }
     limits(given, settings, omissions)?;
     let points = [mechanism.point(a, at_a), mechanism.point(b, at_b)];
@@ -94,7 +92,7 @@ fn tendon(
     let range = given.numbers("range", 2, 2)?.filter(|_| limited && !settings.is_off("limit"));
     if let Some([from, to]) = range.as_deref().and_then(|range| <[f64; 2]>::try_from(range).ok()) {
         if from >= to || to <= 0.0 {
-            return Ok(Some("its range has no extent"));
+            return Ok(Some("its range is empty"));
         }
         let rope = Rope {
             name: mechanism.own_name(&format!("{name}-range")),
@@ -112,7 +110,7 @@ fn tendon(
         let law = Law { stiffness, damping, rest, bias: 0.0 };
         made = Some(coordinate.spring(mechanism, &name, law, (words, element.place)));
         if let Some(line) = mechanism.lines.last_mut() {
-            // As it is written: not what rounding makes of a sum and a difference.
+            // The value as written, free of rounding errors from a sum and a difference.
             line.free_length = free;
         }
     }
@@ -120,7 +118,7 @@ fn tendon(
     Ok(None)
 }
 
-/// Lists what a tendon has that a spring has not.
+/// Lists properties of a tendon that a spring does not have.
 fn limits(
     given: &Attributes<'_>,
     settings: &Settings,

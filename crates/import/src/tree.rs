@@ -1,6 +1,6 @@
 //! All bodies, each in the frame of its parent, with their joints, masses and sites.
 //!
-//! `<worldbody> => bodies in the order of the file, parents first`. A `<frame>` moves what it holds.
+//! `<worldbody> => bodies in file order, parents first`. A `<frame>` transforms its contents.
 
 use std::collections::BTreeMap;
 
@@ -21,32 +21,32 @@ use crate::place::Place;
 use crate::settings::Settings;
 use crate::weigh::{Masses, Scales, Within};
 
-/// The number of the world among the bodies.
+/// Index of the world among the bodies.
 pub(crate) const WORLD: usize = 0;
 
 /// A body.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Body {
-    /// Its name, or one made for it.
+    /// Its name, or a generated one.
     pub(crate) name: String,
-    /// Where it stands.
+    /// Its position in the file.
     pub(crate) place: Place,
-    /// Its parent, which stands before it.
+    /// Its parent, which precedes it.
     pub(crate) parent: usize,
     /// Its pose in its parent's frame.
     pub(crate) pose: Isometry3<f64>,
     /// Its joint.
     pub(crate) joint: Option<Joint>,
-    /// The first of the bodies that carry it: those before it, one for each joint but the last, that MuJoCo
-    /// has as one body; its own number where it has one joint or none.
+    /// The first of its carriers: the bodies before it, one for each joint except the last, which MuJoCo treats as one
+    /// body; its own index if it has at most one joint.
     pub(crate) chain: usize,
     /// Its mass in its own frame.
     pub(crate) mass: Mass,
-    /// Where its mass comes from, in words.
+    /// The origin of its mass.
     pub(crate) mass_words: Vec<(String, Place)>,
-    /// The first mass of it that is not known: why, where.
+    /// Its first unknown mass: reason and position.
     pub(crate) unweighed: Option<(String, Place)>,
-    /// The share of its weight that is taken off it.
+    /// The compensated fraction of its weight.
     pub(crate) weightless: f64,
 }
 
@@ -57,16 +57,16 @@ pub(crate) struct Tree {
     pub(crate) bodies: Vec<Body>,
     /// The geoms.
     pub(crate) surfaces: Vec<Surface>,
-    /// What of them can be seen.
+    /// Their visible shapes.
     pub(crate) looks: Vec<Look>,
     /// Sites by name: the body and the pose in its frame.
     pub(crate) sites: BTreeMap<String, (usize, Isometry3<f64>)>,
-    /// What is good to know.
+    /// Notes for the user.
     pub(crate) notes: Vec<String>,
     names: BTreeMap<String, usize>,
 }
 
-/// What reads bodies.
+/// Reader of bodies.
 struct Reader<'r> {
     scales: Scales<'r>,
     tree: Tree,
@@ -76,7 +76,7 @@ struct Reader<'r> {
 /// Reads all bodies.
 ///
 /// # Errors
-/// Where something is none of what it can be.
+/// If an element or value is invalid.
 pub(crate) fn read(
     root: &Element,
     settings: &Settings,
@@ -116,14 +116,18 @@ pub(crate) fn read(
     let Scales { surfaces, looks, notes, .. } = reader.scales;
     let mut tree = Tree { surfaces, looks, notes, ..reader.tree };
     if tree.bodies.len() == 1 {
-        return Err(Fault::at(root.place, "has no bodies", "<body>s in a <worldbody>"));
+        return Err(Fault::at(
+            root.place,
+            "the model has no bodies",
+            "add a <body> to a <worldbody>",
+        ));
     }
     let total: f64 = tree.bodies.iter().map(|body| body.mass.mass).sum();
     if settings.total_mass > 0.0 && total > 0.0 {
         let factor = settings.total_mass / total;
         for body in &mut tree.bodies {
             body.mass = body.mass.scaled(factor);
-            let words = format!("times {factor} for settotalmass={}", settings.total_mass);
+            let words = format!("scaled by {factor} for settotalmass={}", settings.total_mass);
             body.mass_words.push((words, settings.compiler));
         }
     }
@@ -131,7 +135,7 @@ pub(crate) fn read(
 }
 
 impl Reader<'_> {
-    /// Reads what a body or a frame holds.
+    /// Reads the contents of a body or a frame.
     fn hold(
         &mut self,
         element: &Element,
@@ -162,10 +166,10 @@ impl Reader<'_> {
                 }
                 "composite" | "flexcomp" | "attach" | "replicate" | "plugin" => {
                     let what =
-                        format!("<{}>, which makes parts that are not in the file", child.name);
+                        format!("<{}>, which generates parts that are not in the file", child.name);
                     self.scales.omissions.add(Kind::Generated, child.place, what);
                 }
-                // Cameras, lights, and what has no known name.
+                // Cameras, lights and unknown names.
                 _ => {}
             }
         }
@@ -188,12 +192,12 @@ impl Reader<'_> {
         };
         if let Some(earlier) = self.tree.names.insert(name.clone(), number) {
             let line = self.tree.bodies[earlier].place.line;
-            let message = format!("a body `{name}` is there already, line {line}");
+            let message = format!("body `{name}` is already defined in line {line}");
             let place = given.place("name");
-            return Err(Fault::at(place, message, "a name of its own, not \"world\""));
+            return Err(Fault::at(place, message, "give a unique name other than \"world\""));
         }
         if given.flag("mocap", false)? {
-            let what = format!("body `{name}`, which is moved from outside, stands still");
+            let what = format!("mocap body `{name}` stays fixed");
             self.scales.omissions.add(Kind::Mocap, element.place, what);
         }
         let name = self.tree.own_name(&name);
@@ -234,11 +238,15 @@ impl Reader<'_> {
     fn joint(&mut self, element: &Element, within: Within<'_>) -> Result<(), Fault> {
         let (name, place) = (element.text("name"), element.place);
         if within.body == WORLD {
-            return Err(Fault::at(place, "stands in the world", "a joint stands in a <body>"));
+            return Err(Fault::at(
+                place,
+                "a joint cannot belong to the world",
+                "put the joint in a <body>",
+            ));
         }
         if let Some(earlier) = name.and_then(|name| self.joints.insert(name.to_owned(), place)) {
-            let message = format!("this joint's name is there already, line {}", earlier.line);
-            return Err(Fault::at(place, message, "a name of its own"));
+            let message = format!("the joint name is already used in line {}", earlier.line);
+            return Err(Fault::at(place, message, "give a unique name"));
         }
         let given = if element.name == "freejoint" {
             Attributes::own(element)
@@ -256,17 +264,17 @@ impl Reader<'_> {
         let (chain, called) = (body.chain, name.unwrap_or(&body.name).to_owned());
         let bodies = &mut self.tree.bodies;
         if joint.freedom == Freedom::Free && bodies[chain].parent != WORLD {
-            let help = "only a body of the world is free; others have their parent";
-            return Err(Fault::at(place, "a free joint of a body within another", help));
+            let help = "put the free body directly in the world";
+            return Err(Fault::at(place, "a free joint in a nested body", help));
         }
         if joint.freedom == Freedom::Free && chain < within.body {
-            let help = "a free body has no other joint";
-            return Err(Fault::at(place, "a free joint beside others", help));
+            let help = "remove the other joints of the body";
+            return Err(Fault::at(place, "a free joint combined with other joints", help));
         }
         if element.name == "joint" {
             lacks::of_joint(&given, &joint, &called, self.scales.settings, self.scales.omissions)?;
         }
-        // MuJoCo takes a body through its joints in their order; each of its carriers has one of them.
+        // MuJoCo applies the joints of a body in order; each of its carriers has one of them.
         let next = bodies[chain..=within.body].iter_mut().find(|body| body.joint.is_none());
         if let Some(body) = next {
             body.joint = Some(joint);
@@ -275,7 +283,7 @@ impl Reader<'_> {
     }
 }
 
-/// How many joints a body has, those in its frames included.
+/// Number of joints of a body, including those in its frames.
 fn joints_in(element: &Element) -> usize {
     let of = |child: &Element| match child.name.as_str() {
         "joint" | "freejoint" => 1,
@@ -286,7 +294,7 @@ fn joints_in(element: &Element) -> usize {
 }
 
 impl Tree {
-    /// The body of a name.
+    /// The body with a name.
     pub(crate) fn body(&self, name: &Attribute) -> Result<usize, Fault> {
         self.names
             .get(&name.value)
@@ -294,7 +302,7 @@ impl Tree {
             .ok_or_else(|| Self::unknown("body", name, self.names.keys().map(String::as_str)))
     }
 
-    /// The site of a name.
+    /// The site with a name.
     pub(crate) fn site(&self, name: &Attribute) -> Result<(usize, Isometry3<f64>), Fault> {
         self.sites
             .get(&name.value)
@@ -302,7 +310,7 @@ impl Tree {
             .ok_or_else(|| Self::unknown("site", name, self.sites.keys().map(String::as_str)))
     }
 
-    /// The body of the joint of a name.
+    /// The body of the joint with a name.
     pub(crate) fn joint(&self, name: &Attribute) -> Result<usize, Fault> {
         let named = |body: &Body| body.joint.as_ref()?.name.clone();
         let found = self.bodies.iter().position(|body| named(body).as_deref() == Some(&name.value));
@@ -312,17 +320,17 @@ impl Tree {
         })
     }
 
-    /// Whether a body only carries another through one of its joints: it has no mass of its own.
+    /// Whether a body is a carrier, which has no mass in the file.
     pub(crate) fn carries(&self, body: usize) -> bool {
         self.bodies.get(body + 1).is_some_and(|next| next.chain <= body)
     }
 
-    /// The parent of a body as the file has it.
+    /// The parent of a body in the file.
     pub(crate) fn parent(&self, body: usize) -> usize {
         self.bodies[self.bodies[body].chain].parent
     }
 
-    /// A name that no body has yet: the one wanted, or that with a number.
+    /// An unused body name: the desired one, or that with a number.
     fn own_name(&self, wanted: &str) -> String {
         let wanted = fitting(wanted);
         let numbered = (2..).map(|number| format!("{wanted}-{number}"));
@@ -331,19 +339,23 @@ impl Tree {
         names.find(|name| !taken(name)).unwrap_or(wanted)
     }
 
-    /// The refusal of a name that nothing has.
+    /// The refusal of an unknown name.
     pub(crate) fn unknown<'n>(
         kind: &str,
         name: &Attribute,
         known: impl Iterator<Item = &'n str>,
     ) -> Fault {
         let meant = nearest(&name.value, known).map(|meant| format!(": did you mean `{meant}`?"));
-        let message = format!("there is no {kind} `{}`", name.value);
-        Fault::at(name.place, message, format!("the name of a {kind}{}", meant.unwrap_or_default()))
+        let message = format!("unknown {kind} `{}`", name.value);
+        Fault::at(
+            name.place,
+            message,
+            format!("expected the name of a {kind}{}", meant.unwrap_or_default()),
+        )
     }
 }
 
-/// A point as a vector, moved by a pose.
+/// A point transformed by a pose.
 pub(crate) fn moved(pose: &Isometry3<f64>, point: Vector3<f64>) -> Vector3<f64> {
     pose.translation.vector + pose.rotation * point
 }

@@ -1,7 +1,8 @@
-//! URDF, the robots' files of ROS, as the elements of MJCF that say the same.
+//! ROS's URDF as equivalent MJCF elements.
 //!
-//! `<robot> => <mujoco>`. Links become bodies in each other, at the places of the file's text, so that all that is said of them
-//! leads there. A link that no joint holds is fixed to the ground, as in MuJoCo. URDF knows no gravity: it is 9.81 m/s² down z.
+//! `<robot> => <mujoco>`. Links become nested bodies with the positions of the URDF text, so that messages refer to it.
+//! A link without a joint is fixed to the ground, as in MuJoCo. URDF does not specify gravity: 9.81 m/s² along −z is
+//! used.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,13 +16,13 @@ use crate::omission::{Kind, Omissions};
 use crate::place::Place;
 use crate::schema;
 
-/// What a robot may hold; nothing of the second is a law of motion.
+/// Elements of a robot; those in the second list do not affect the motion.
 const ROBOT: [&[&str]; 2] = [
     &["link", "joint", "transmission", "mujoco"],
     &["material", "gazebo", "sensor", "version", "ros2_control", "link_name", "self_collide"],
 ];
 
-/// What a link and a joint may hold.
+/// Elements of a link and a joint.
 const LINK: &[&str] = &[
     "inertial",
     "visual",
@@ -44,24 +45,28 @@ const JOINT: &[&str] = &[
     "safety_controller",
 ];
 
-/// What only `xacro` makes something of.
+/// Elements that only `xacro` interprets.
 const MACROS: &[&str] = &["macro", "property", "arg", "include", "if", "unless"];
 
 /// The types of joints.
 const TYPES: [&str; 6] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
 
-/// As many links may hang on each other as elements may stand in each other.
+/// Maximum length of a chain of links, as for nested elements.
 const DEPTH: usize = 400;
 
 /// The tree of MJCF.
 ///
 /// # Errors
-/// Where links and joints do not form a tree, or a value is invalid.
+/// If links and joints do not form a tree, or a value is invalid.
 pub(crate) fn mujoco(robot: &Element, omissions: &mut Omissions) -> Result<Element, Fault> {
     for child in &robot.children {
         if MACROS.contains(&child.name.as_str()) {
-            let help = "`xacro FILE > FILE.urdf` first: macros are not read";
-            return Err(Fault::at(child.place, format!("<{}> is a macro's", child.name), help));
+            let help = "run `xacro FILE > FILE.urdf` first: macros are not expanded";
+            return Err(Fault::at(
+                child.place,
+                format!("<{}> belongs to a macro", child.name),
+                help,
+            ));
         }
     }
     schema::children(robot, &ROBOT.concat(), omissions);
@@ -70,21 +75,21 @@ pub(crate) fn mujoco(robot: &Element, omissions: &mut Omissions) -> Result<Eleme
         schema::children(link, LINK, omissions);
         let name = required(link, "name", "<link name=\"…\">")?;
         if links.insert(name.value.as_str(), link).is_some() {
-            let message = format!("link `{}` is there twice", name.value);
-            return Err(Fault::at(name.place, message, "each link has a name of its own"));
+            let message = format!("link `{}` is defined twice", name.value);
+            return Err(Fault::at(name.place, message, "give each link a unique name"));
         }
     }
     let joints = robot.sections("joint").map(|joint| Joint::read(joint, &links, omissions));
     let joints = joints.collect::<Result<Vec<_>, _>>()?;
     if links.is_empty() {
-        let help = "<link>s; macros are expanded first: `xacro FILE > FILE.urdf`";
-        return Err(Fault::at(robot.place, "has no links", help));
+        let help = "add a <link>; expand macros first: `xacro FILE > FILE.urdf`";
+        return Err(Fault::at(robot.place, "the robot has no links", help));
     }
     let mut held = BTreeSet::new();
     for joint in &joints {
         if !held.insert(joint.child.value.as_str()) {
-            let message = format!("link `{}` hangs on two joints", joint.child.value);
-            let help = "a URDF is a tree; a loop is closed by a [[joint]] in the scene";
+            let message = format!("link `{}` is the child of two joints", joint.child.value);
+            let help = "expected a tree; close the loop with a [[joint]] in the scene";
             return Err(Fault::at(joint.child.place, message, help));
         }
     }
@@ -110,20 +115,20 @@ pub(crate) fn mujoco(robot: &Element, omissions: &mut Omissions) -> Result<Eleme
     if count < tree.links.len() {
         let circle = tree.links.iter().find(|(name, _)| held.contains(*name));
         let place = circle.map_or(robot.place, |(_, link)| link.place);
-        let message = "its links hang on each other in a circle";
-        return Err(Fault::at(place, message, "a tree of links with one that no joint holds"));
+        let message = "the links form a cycle";
+        return Err(Fault::at(place, message, "expected a tree with one root link"));
     }
     let given = |name: &str, value: &str| attribute(name, value, robot.place);
     let mut compiler = empty("compiler", robot.place);
     compiler.attributes =
         vec![given("angle", "radian"), given("eulerseq", "XYZ"), given("inertiafromgeom", "false")];
-    // By its name it is known that no step was stated.
+    // This name indicates that no time step is given.
     let mut mujoco = empty("robot", robot.place);
     mujoco
         .attributes
         .extend(robot.attribute("name").map(|name| attribute("model", &name.value, name.place)));
     mujoco.children = vec![compiler];
-    // What a URDF says to MuJoCo alone.
+    // MuJoCo-specific section of a URDF.
     for section in robot.sections("mujoco") {
         let own = |one: &&Element| matches!(one.name.as_str(), "compiler" | "option");
         mujoco.children.extend(section.children.iter().filter(own).cloned());
@@ -153,7 +158,7 @@ impl<'e> Joint<'e> {
         let name = required(element, "name", "<joint name=\"…\" type=\"…\">")?;
         let kind = required(element, "type", &TYPES.join(", "))?;
         let Some(known) = TYPES.into_iter().find(|known| *known == kind.value) else {
-            let message = format!("`{}` is no type of joint", kind.value);
+            let message = format!("unknown joint type `{}`", kind.value);
             return Err(Fault::at(kind.place, message, TYPES.join(", ")));
         };
         let end = |which: &str| -> Result<&'e Attribute, Fault> {
@@ -168,32 +173,32 @@ impl<'e> Joint<'e> {
             }
             let meant = nearest(&link.value, links.keys().copied());
             let help = meant.map_or_else(
-                || "the name of a link".to_owned(),
+                || "expected the name of a link".to_owned(),
                 |meant| format!("did you mean `{meant}`?"),
             );
-            Err(Fault::at(link.place, format!("names no link: `{}`", link.value), help))
+            Err(Fault::at(link.place, format!("unknown link `{}`", link.value), help))
         };
         let (parent, child) = (end("parent")?, end("child")?);
         if known == "planar" {
             let what =
-                format!("{}: a planar joint; two slides and a hinge say that", element.called());
+                format!("{}: planar joint; use two slides and a hinge instead", element.called());
             omissions.add(Kind::Joints, element.place, what);
         }
         Ok(Self { element, name, kind: known, parent, child })
     }
 
-    /// Whether it has one freedom, a hinge's or a slide's.
+    /// Whether it has one degree of freedom, as a hinge or a slide.
     fn moves(&self) -> bool {
         matches!(self.kind, "revolute" | "continuous" | "prismatic")
     }
 
-    /// Its number within a part of it, 0 where that is not there.
+    /// A number within one of its elements, 0 if absent.
     fn number(&self, part: &str, name: &str) -> Result<Option<f64>, Fault> {
         let Some(part) = self.element.sections(part).next() else { return Ok(None) };
         Attributes::own(part).number(name)
     }
 
-    /// As a joint of MJCF; `None` where it has no freedom.
+    /// As an MJCF joint; `None` without degrees of freedom.
     fn freedom(&self) -> Result<Option<Element>, Fault> {
         let mut joint = empty("joint", self.element.place);
         let kind = match self.kind {
@@ -221,12 +226,12 @@ impl<'e> Joint<'e> {
             let given = Attributes::own(limit);
             let end = |name: &str| given.number(name).map(|end| end.unwrap_or(0.0));
             let (lower, upper) = (end("lower")?, end("upper")?);
-            // As in MuJoCo, equal ends set no range.
+            // As in MuJoCo, equal bounds mean no range.
             if lower < upper {
                 add("range", &format!("{lower:?} {upper:?}"), limit.place);
             } else if lower > upper {
                 let message = format!("`lower` {lower} is above `upper` {upper}");
-                return Err(Fault::at(limit.place, message, "lower below upper"));
+                return Err(Fault::at(limit.place, message, "give lower below upper"));
             }
         }
         if let Some(dynamics) = self.element.sections("dynamics").next() {
@@ -240,14 +245,14 @@ impl<'e> Joint<'e> {
     }
 }
 
-/// Links by their names, and the joints on each.
+/// Links by name, and the joints on each.
 struct Robot<'e> {
     links: BTreeMap<&'e str, &'e Element>,
     on: BTreeMap<&'e str, Vec<&'e Joint<'e>>>,
 }
 
 impl Robot<'_> {
-    /// A link with all that hangs on it; `count` links so far.
+    /// A link with its descendants; `count` links so far.
     fn body(
         &self,
         link: &Element,
@@ -255,8 +260,8 @@ impl Robot<'_> {
         (depth, count): (usize, &mut usize),
     ) -> Result<Element, Fault> {
         if depth > DEPTH {
-            let message = format!("hangs on more than {DEPTH} links, one on another");
-            return Err(Fault::at(link.place, message, "a shorter chain of links"));
+            let message = format!("the link is in a chain of more than {DEPTH} links");
+            return Err(Fault::at(link.place, message, "use a shorter chain"));
         }
         *count += 1;
         let mut body = empty("body", link.place);
@@ -291,13 +296,13 @@ fn pose(element: &Element) -> Result<Vec<Attribute>, Fault> {
     Ok(given("xyz", "pos").into_iter().chain(given("rpy", "euler")).collect())
 }
 
-/// The mass of a link, its inertia along the axes of the link.
+/// The mass of a link, with its inertia in the link's axes.
 fn inertial(link: &Element) -> Result<Option<Element>, Fault> {
     let Some(section) = link.sections("inertial").next() else { return Ok(None) };
     let part = |name: &str| {
         section.sections(name).next().ok_or_else(|| {
             let message = format!("<inertial> of {} has no <{name}>", link.called());
-            Fault::at(section.place, message, "<mass value=\"…\"/> and <inertia ixx=\"…\" …/>")
+            Fault::at(section.place, message, "give <mass value=\"…\"/> and <inertia ixx=\"…\" …/>")
         })
     };
     let (mass, inertia) = (part("mass")?, part("inertia")?);
@@ -326,7 +331,7 @@ fn inertial(link: &Element) -> Result<Option<Element>, Fault> {
     Ok(Some(made))
 }
 
-/// What a link looks like, or what of it touches.
+/// A visual or collision shape of a link.
 fn geom(section: &Element, touches: bool) -> Result<Option<Element>, Fault> {
     let geometry = section.sections("geometry").next().and_then(|one| one.children.first());
     let Some(geometry) = geometry else { return Ok(None) };
@@ -338,13 +343,17 @@ fn geom(section: &Element, touches: bool) -> Result<Option<Element>, Fault> {
     let number = |name: &str| -> Result<f64, Fault> {
         given.number(name)?.ok_or_else(|| {
             let message = format!("<{}> has no `{name}`", geometry.name);
-            Fault::at(geometry.place, message, "its size in m")
+            Fault::at(geometry.place, message, "give its size in m")
         })
     };
     match geometry.name.as_str() {
         "box" => {
             let Some(size) = given.vector("size")? else {
-                return Err(Fault::at(geometry.place, "<box> has no `size`", "three sides in m"));
+                return Err(Fault::at(
+                    geometry.place,
+                    "<box> has no `size`",
+                    "give three side lengths in m",
+                ));
             };
             let half = size * 0.5;
             add("type", "box", geometry.place);
@@ -359,7 +368,7 @@ fn geom(section: &Element, touches: bool) -> Result<Option<Element>, Fault> {
             add("type", "sphere", geometry.place);
             add("size", &format!("{:?}", number("radius")?), geometry.place);
         }
-        // A picture has none of it; of what touches, that it does is said.
+        // Pictures do not show meshes; for collisions the contact is reported.
         "mesh" if touches => {
             let file = given.text("filename").unwrap_or_default();
             add("type", "mesh", geometry.place);
@@ -367,8 +376,8 @@ fn geom(section: &Element, touches: bool) -> Result<Option<Element>, Fault> {
         }
         "mesh" => return Ok(None),
         other => {
-            let message = format!("<{other}> is no geometry");
-            let help = "<box>, <cylinder>, <sphere> or <mesh>";
+            let message = format!("unknown geometry <{other}>");
+            let help = "expected <box>, <cylinder>, <sphere> or <mesh>";
             return Err(Fault::at(geometry.place, message, help));
         }
     }
@@ -395,7 +404,7 @@ fn equalities(
     let mut section = empty("equality", robot.place);
     for joint in joints {
         let Some(mimic) = joint.element.sections("mimic").next() else { continue };
-        // What does not move mimics nothing.
+        // A fixed joint mimics nothing.
         if !joint.moves() {
             continue;
         }
@@ -422,7 +431,7 @@ fn equalities(
     Ok(section)
 }
 
-/// A motor at the joint of each transmission, as strong as the joint's `effort` says.
+/// A motor at the joint of each transmission, limited by the joint's `effort`.
 fn motors(
     robot: &Element,
     joints: &[Joint<'_>],
@@ -436,7 +445,7 @@ fn motors(
             let Some(driven) = driven.filter(|joint| joint.moves()) else {
                 let called = transmission.called();
                 let what =
-                    format!("{called}: drives `{}`, which is no joint that moves", name.value);
+                    format!("{called}: drives `{}`, which is not a movable joint", name.value);
                 omissions.add(Kind::Actuator, name.place, what);
                 continue;
             };

@@ -1,6 +1,6 @@
-//! The mass of a body: of its `<inertial>`, else of its geoms.
+//! The mass of a body: from its `<inertial>`, else from its geoms.
 //!
-//! `geoms, meshes, <inertial> => mass of a body`. Which counts is known once all of them are read.
+//! `geoms, meshes, <inertial> => mass of a body`. Which source applies is known once all are read.
 
 use nalgebra::Isometry3;
 
@@ -15,10 +15,10 @@ use crate::omission::{Kind, Omissions};
 use crate::place::Place;
 use crate::settings::{InertiaSource, Settings};
 
-/// Masses of a body, before it is known which counts.
+/// Masses of a body, before the source is selected.
 #[derive(Default)]
 pub(crate) struct Masses {
-    /// Of an `<inertial>`.
+    /// From an `<inertial>`.
     pub(crate) inertial: Option<(Mass, Place)>,
     geoms: Vec<(Weight, Place, String)>,
 }
@@ -27,38 +27,38 @@ pub(crate) struct Masses {
 enum Weight {
     /// Known.
     Known(Mass),
-    /// Of a mesh at a pose, with a mass or a density.
+    /// A mesh at a pose, with a mass or a density.
     Mesh(String, Isometry3<f64>, Option<f64>, f64),
-    /// Not known, and why.
+    /// Unknown, with the reason.
     Unknown(&'static str),
 }
 
-/// Where something stands.
+/// Context of an element.
 #[derive(Clone, Copy)]
 pub(crate) struct Within<'w> {
     /// Its body.
     pub(crate) body: usize,
-    /// The class of what names none there.
+    /// The default class there.
     pub(crate) class: &'w str,
     /// Its frame in that of the body.
     pub(crate) frame: &'w Isometry3<f64>,
 }
 
-/// What reads geoms and weighs bodies.
+/// Reader of geoms and masses.
 pub(crate) struct Scales<'r> {
-    /// What the file says of itself.
+    /// Settings of the file.
     pub(crate) settings: &'r Settings,
     /// Classes.
     pub(crate) defaults: &'r Defaults,
     /// Meshes.
     pub(crate) meshes: &'r mut Meshes,
-    /// What has no counterpart.
+    /// Items without a counterpart.
     pub(crate) omissions: &'r mut Omissions,
     /// The geoms so far.
     pub(crate) surfaces: Vec<Surface>,
-    /// What of them can be seen.
+    /// Their visible shapes.
     pub(crate) looks: Vec<Look>,
-    /// What is good to know.
+    /// Notes for the user.
     pub(crate) notes: Vec<String>,
 }
 
@@ -67,14 +67,14 @@ pub(crate) struct Scales<'r> {
 pub(crate) struct Weighed {
     /// In its own frame.
     pub(crate) mass: Mass,
-    /// Where it comes from, in words.
+    /// Its origin.
     pub(crate) words: Vec<(String, Place)>,
-    /// The first part of it that is not known: why, where.
+    /// Its first unknown contribution: reason and position.
     pub(crate) unknown: Option<(String, Place)>,
 }
 
 impl Scales<'_> {
-    /// Reads a `<geom>`: its mass, what it touches, what of it can be seen.
+    /// Reads a `<geom>`: its mass, contact surface and visible shape.
     pub(crate) fn geom(
         &mut self,
         element: &Element,
@@ -108,7 +108,7 @@ impl Scales<'_> {
         let unseen = surface.kind == 0 && surface.affinity == 0;
         self.surfaces.push(surface);
         if given.text("fluidshape").is_some_and(|shape| shape != "none") {
-            let what = format!("{words}: resistance of a medium");
+            let what = format!("{words}: drag of a medium");
             self.omissions.add(Kind::Fluid, element.place, what);
         }
         let group = given.number("group")?.unwrap_or(0.0);
@@ -116,7 +116,7 @@ impl Scales<'_> {
         let mass = given.number("mass")?;
         let density = given.number("density")?.unwrap_or(1000.0);
         let massless = mass.map_or(density == 0.0, |mass| mass == 0.0);
-        // Geoms that touch nothing are gone where that is asked for, mass and all.
+        // Geoms without contacts are discarded on request, including their mass.
         let dropped = self.settings.discard_visual && unseen;
         if let Some(solid) = geom.solid.filter(|_| !dropped) {
             let pose = within.frame * geom.pose;
@@ -132,17 +132,17 @@ impl Scales<'_> {
                 let mass = mass.unwrap_or_else(|| density * solid.volume());
                 Weight::Known(Mass::principal(mass, solid.moments(mass), &pose))
             }
-            (Some(_), _) => Weight::Unknown("a shell of a shape"),
+            (Some(_), _) => Weight::Unknown("shells of shapes are not supported"),
             (None, Some(mesh)) => Weight::Mesh(mesh, pose, mass, density),
-            (None, None) => {
-                Weight::Unknown("a shape that is fitted to a mesh, or a signed distance field")
-            }
+            (None, None) => Weight::Unknown(
+                "shapes fitted to meshes and signed distance fields are not supported",
+            ),
         };
         masses.geoms.push((weight, element.place, words));
         Ok(())
     }
 
-    /// The mass of a body of what was found in it.
+    /// The mass of a body from its geoms or `<inertial>`.
     pub(crate) fn weigh(&mut self, called: &str, masses: Masses) -> Weighed {
         let inertial = match self.settings.inertia {
             InertiaSource::Geoms => None,
@@ -161,8 +161,8 @@ impl Scales<'_> {
                         Ok(bulk) => {
                             if let Some(enclosed) = bulk.enclosed {
                                 self.notes.push(format!(
-                                    "mesh `{mesh}` has {:.4e} m³ as MuJoCo counts it, of which its faces enclose \
-                                     {enclosed:.4e}: inertia=\"exact\" takes those",
+                                    "mesh `{mesh}` has a volume of {:.4e} m³ by the rule of its `inertia`; its faces \
+                                     enclose {enclosed:.4e}: use inertia=\"exact\" for that",
                                     bulk.size()
                                 ));
                             }

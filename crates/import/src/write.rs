@@ -1,6 +1,6 @@
 //! The scene's text.
 //!
-//! `mechanism => TOML with a comment on each part: from which element, on which line`.
+//! `mechanism => TOML with a comment on each part: its element and line`.
 
 use std::fmt::Write as _;
 
@@ -17,18 +17,18 @@ use crate::part::Side;
 use crate::place::{Place, Source, Texts};
 use crate::settings::Settings;
 
-/// How an imported scene begins.
+/// First line of an imported scene.
 pub(crate) const HEAD: &str = "# Imported by `host-sim import` from ";
 
-/// What is written at the top.
+/// Data for the header.
 pub(crate) struct Head<'h> {
-    /// What it says of itself.
+    /// Settings of the file.
     pub(crate) settings: &'h Settings,
-    /// The texts, to show places.
+    /// The texts, to show positions.
     pub(crate) texts: &'h Texts,
 }
 
-/// The scene's text; `file` is what it was made of.
+/// The scene's text; `file` is the source file.
 pub(crate) fn scene(
     mechanism: &Mechanism<'_>,
     head: &Head<'_>,
@@ -67,36 +67,39 @@ fn top(
     };
     let k = number(options.stiffness);
     let c = number(options.damping);
-    let _ = writeln!(out, "# Joints, stated: stiffness {k} N/m, damping {c} N·s/m, {stated}.");
+    let _ = writeln!(
+        out,
+        "# Joints, from the options: stiffness {k} N/m, damping {c} N·s/m, {stated}."
+    );
     if mechanism.links.iter().any(|link| link.keys.iter().any(|key| key.contains("limits"))) {
         let _ = writeln!(
             out,
-            "# Limits, stated: as stiff as their joints, an impact at {LIMIT_SPEED} rad/s or m/s returns {} of it.",
+            "# Limits, from the options: as stiff as their joints; an impact at {LIMIT_SPEED} rad/s or m/s rebounds at {} of that speed.",
             RESTITUTION
         );
     }
     if mechanism.links.iter().any(|link| link.keys.iter().any(|key| key.contains("rotor"))) {
-        out.push_str("# Rotors: armatures, behind gears as stiff as their joints.\n");
+        out.push_str("# Rotors: armatures behind gears as stiff as their joints.\n");
     }
     if !mechanism.couplings.is_empty() {
         let _ = writeln!(
             out,
-            "# Couplings, where the file states nothing: as stiff as limits, damped by {SETTLING} s of that."
+            "# Couplings without a stiffness in the file: as stiff as limits, damping {SETTLING} s times the stiffness."
         );
     }
     if !(mechanism.contacts.is_empty() && mechanism.ropes.is_empty()) {
         let _ = writeln!(
             out,
-            "# Contacts and ranges of tendons, stated: as stiff as joints, an impact at {LIMIT_SPEED} m/s returns {RESTITUTION} of it."
+            "# Contacts and ranges of tendons, from the options: as stiff as joints; an impact at {LIMIT_SPEED} m/s rebounds at {RESTITUTION} of that speed."
         );
     }
     if options.weld == Weld::Merge {
-        out.push_str("# Bodies without joints are one with their parents.\n");
+        out.push_str("# Bodies without joints are merged with their parents.\n");
     }
     if let Some(step) = settings.timestep {
         let _ = writeln!(
             out,
-            "# The file's own step was {step} s; without `step` here a run chooses one that is stable."
+            "# The file's timestep was {step} s; without `step` here a run chooses a stable one."
         );
     }
     for (kind, place, what) in omissions {
@@ -118,13 +121,13 @@ fn top(
     }
     if mechanism.planar {
         out.push_str(
-            "# In the plane a body is free without a joint: so are two slides and a hinge.\n",
+            "# In the plane a body without a joint is free: this replaces two slides and a hinge.\n",
         );
         out.push_str("planar = true\n");
     }
     if mechanism.links.iter().any(|link| !link.is_closed()) {
         let tolerance = options.tolerance.unwrap_or_else(|| rounded(TOLERANCE * mechanism.size()));
-        out.push_str("\n# Closes the joints that have two places, up to this gap in m.\n");
+        out.push_str("\n# Closes the joints given by two points, up to this gap in m.\n");
         let _ = writeln!(out, "[assemble]\ntolerance = {}", number(tolerance));
     }
 }
@@ -140,7 +143,7 @@ fn bodies(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
             let masses: Vec<String> =
                 masses.map(|(words, place)| format!("{words}, {}", texts.shown(*place))).collect();
             let masses = match (masses.is_empty(), carries) {
-                (_, true) => "of its neighbours".into(),
+                (_, true) => "taken from its neighbours".into(),
                 (true, _) => "no mass".into(),
                 _ => masses.join("; "),
             };
@@ -330,14 +333,14 @@ fn contacts(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
     }
 }
 
-/// How stiff what stops is, and what comes back of an impact.
+/// Stiffness and dissipation of a stop.
 fn stop(out: &mut String, mechanism: &Mechanism<'_>) {
     let _ = writeln!(out, "stiffness = {}", number(mechanism.options.stiffness));
     let dissipation = dbd_scene::laws::dissipation(RESTITUTION, LIMIT_SPEED);
     let _ = writeln!(out, "dissipation = {}", number(rounded(dissipation)));
 }
 
-/// What of geoms can be seen, in the axes of their bodies.
+/// Visible shapes of geoms, in the axes of their bodies.
 fn looks(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
     let size = mechanism.size();
     for look in &mechanism.tree.looks {

@@ -1,7 +1,7 @@
-//! The controller's end of the line: what it sends, and which answers it accepts.
+//! The controller's end of the line: frames to send and accepted answers.
 //!
-//! `settings, inputs => frames; bytes => messages of the open session, each newer than the last`. The end neither
-//! waits nor allocates; [`ask`] waits for an answer and asks again where none comes.
+//! `settings, inputs => frames; bytes => messages of the open session, each newer than the last`. The end neither waits
+//! nor allocates; [`ask`] waits for an answer and repeats the question without one.
 
 use crate::frame::{Frame, FrameError, Receiver};
 use crate::message::{Header, Message, Outputs, Refusal, Statistics, Welcome};
@@ -12,7 +12,7 @@ use crate::plant_end::Line;
 pub struct ControllerEnd {
     session: u16,
     sequence: u32,
-    /// Of the plant's newest frame; `None` before the first one of a session.
+    /// Sequence number of the plant's newest frame; `None` before the first one of a session.
     newest: Option<u32>,
     receiver: Receiver,
     frame: Frame,
@@ -20,8 +20,8 @@ pub struct ControllerEnd {
 }
 
 impl ControllerEnd {
-    /// An end whose first session has this number; another one than an earlier program's, so that its frames count
-    /// as foreign.
+    /// An end whose first session has this number, which must differ from that of an earlier program, so that its
+    /// frames are rejected.
     #[must_use]
     pub fn new(session: u16) -> Self {
         Self {
@@ -34,26 +34,26 @@ impl ControllerEnd {
         }
     }
 
-    /// What was seen since the start.
+    /// Statistics since the start.
     pub const fn statistics(&self) -> &Statistics {
         &self.statistics
     }
 
-    /// The sequence number of the newest frame that was sent.
+    /// The sequence number of the newest sent frame.
     #[must_use]
     pub const fn sequence(&self) -> u32 {
         self.sequence
     }
 
-    /// Gives the session another number: a plant that lost the last one opens a new one.
+    /// Changes the session number: a plant that lost the last session opens a new one.
     pub fn renew(&mut self) {
         self.session = self.session.checked_add(1).unwrap_or(1);
         self.newest = None;
     }
 
-    /// Sends a message; its sequence number.
+    /// Sends a message; returns its sequence number.
     pub fn send(&mut self, message: &Message, line: &mut impl Line) -> u32 {
-        // 0 is what no frame of inputs has.
+        // No frame of inputs has number 0.
         self.sequence = self.sequence.checked_add(1).unwrap_or(1);
         self.frame.encode(Header { session: self.session, sequence: self.sequence }, message);
         self.statistics.sent = self.statistics.sent.saturating_add(1);
@@ -61,7 +61,7 @@ impl ControllerEnd {
         self.sequence
     }
 
-    /// Takes a byte of the line; the message that it ends.
+    /// Processes a byte of the line; returns the message that it completes.
     pub fn receive(&mut self, byte: u8) -> Option<Message> {
         let counts = &mut self.statistics;
         let (header, message) = match self.receiver.push(byte) {
@@ -82,7 +82,7 @@ impl ControllerEnd {
         if let Some(newest) = self.newest {
             let ahead = header.sequence.wrapping_sub(newest);
             if ahead == 0 || ahead > u32::MAX / 2 {
-                // A plant that was switched off counts from 1 again, and says that it knows no session.
+                // A plant that was switched off counts from 1 again, and reports that no session is open.
                 if matches!(message, Message::Refused(Refusal::Session)) {
                     return Some(message);
                 }
@@ -99,15 +99,15 @@ impl ControllerEnd {
         Some(message)
     }
 
-    /// Notes that a question was sent again.
+    /// Counts a repeated question.
     pub fn repeated(&mut self) {
         self.statistics.repeated = self.statistics.repeated.saturating_add(1);
     }
 }
 
-/// A line that can be waited on.
+/// A line with a blocking read.
 pub trait Wait: Line {
-    /// The next byte; `None` where the time for an answer to the last frame that was sent is over.
+    /// The next byte; `None` after the time limit for an answer to the last sent frame.
     fn byte(&mut self) -> Option<u8>;
 }
 
@@ -116,15 +116,15 @@ pub trait Wait: Line {
 pub enum Unanswered {
     /// The plant refused it.
     Refused(Refusal),
-    /// No answer came, however often it was asked.
+    /// No answer came to any of the questions.
     Silent,
 }
 
-/// Asks until `accept` accepts an answer, at most `times`; answers to earlier questions are passed over.
+/// Asks until `accept` accepts an answer, at most `times`; answers to earlier questions are skipped.
 ///
 /// # Errors
 /// [`Unanswered`].
-// The refusal names the other model; there is no heap to put it on.
+// The refusal contains the other model's identity; there is no heap to box it.
 #[allow(clippy::result_large_err)]
 pub fn ask<T>(
     end: &mut ControllerEnd,
@@ -161,11 +161,11 @@ pub fn welcome(answer: Message) -> Option<Welcome> {
     }
 }
 
-/// The outputs of an answer that are of this step.
+/// The outputs of an answer at this step.
 pub fn outputs_at(step: u64) -> impl Fn(Message) -> Option<Outputs> {
     move |answer| match answer {
         Message::Outputs(outputs) if outputs.step == step => Some(outputs),
-        // A plant that failed on the way says where.
+        // A plant that failed before that step reports where.
         Message::Outputs(outputs) if !outputs.running => Some(outputs),
         _ => None,
     }

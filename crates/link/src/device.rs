@@ -1,4 +1,4 @@
-//! What a plant's end of the line needs of the plant, and the kernel's plant as such.
+//! The interface of a plant for its end of the line, and its implementation by the kernel's plant.
 
 use core::ops::Deref;
 
@@ -12,17 +12,17 @@ use crate::message::{Identity, Name, Values};
 
 /// A plant with inputs and sensors.
 pub trait Device {
-    /// What it is; the fingerprint is left out, for a snapshot has it.
+    /// Its identity, without the fingerprint, which a snapshot contains.
     fn identity(&self) -> Identity;
 
-    /// Sets an input, counted from 0, until it is set again \[N, N·m or m\]; whether it was accepted. An input that
-    /// was not accepted keeps its value.
+    /// Sets an input \[N, N·m or m\], counted from 0; returns whether it was accepted. An input that was not accepted
+    /// keeps its value.
     fn set(&mut self, input: usize, value: f64) -> bool;
 
-    /// The value of an input, 0 where there is no such input.
+    /// The value of an input, 0 if there is no such input.
     fn input(&self, input: usize) -> f64;
 
-    /// Takes steps with the inputs as they are, or as many as succeed.
+    /// Takes steps with the present inputs, or as many as succeed.
     fn advance(&mut self, steps: u32);
 
     /// Steps since t = 0.
@@ -34,17 +34,17 @@ pub trait Device {
     /// The hash of the state's stored words.
     fn hash(&self) -> u64;
 
-    /// Appends the values of all sensors, [`f64::NAN`] where one has none.
+    /// Appends the values of all sensors, [`f64::NAN`] for undefined ones.
     fn read(&self, values: &mut Values);
 
-    /// Writes a snapshot; its length \[bytes\], `None` where the plant has failed or it does not fit.
+    /// Writes a snapshot; returns its length \[bytes\], `None` if the plant has failed or it does not fit.
     fn save(&self, buffer: &mut [u8]) -> Option<usize>;
 
-    /// Goes on from a snapshot; whether it was accepted. Else nothing is changed.
+    /// Restores a snapshot; returns whether it was accepted. Otherwise nothing is changed.
     fn restore(&mut self, bytes: &[u8]) -> bool;
 }
 
-/// A name's first characters, as many as there is room for.
+/// A name, truncated to the available space.
 #[must_use]
 pub fn cut(name: &str) -> Name {
     let mut cut = Name::new();
@@ -76,8 +76,8 @@ where
     H: Deref<Target: ModelOwner + Sized>,
     S: Scheme,
 {
-    /// A plant, the name of its scene, its inputs and its sensors. The other end finds the same ones where these are
-    /// the scene's read-outs in their order, and its inputs in their order without those that tables drive.
+    /// A plant, the name of its scene, its inputs and its sensors. They match the other end if they are the scene's
+    /// read-outs in order, and its inputs in order without those driven by tables.
     #[must_use]
     pub const fn new(
         plant: Plant<H, S>,
@@ -156,7 +156,7 @@ where
                 }
                 None => ([f64::NAN; 6], numbers_of(sensor)),
             };
-            // What does not fit is left out on both ends alike, and the host refuses such scenes.
+            // Excess values are omitted at both ends, and the host refuses such scenes.
             numbers.iter().take(count).for_each(|number| _ = values.push(*number));
         }
     }
@@ -170,7 +170,7 @@ where
     }
 }
 
-/// How many numbers a sensor shows.
+/// Number of values of a sensor.
 #[must_use]
 pub const fn numbers_of<P: Geometry>(sensor: &Readout<P>) -> usize {
     match sensor {

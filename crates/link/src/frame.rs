@@ -8,9 +8,9 @@ use crc::{CRC_32_ISO_HDLC, Crc};
 
 use crate::message::{Header, MAX_CHANGES, MAX_VALUES, Message, VERSION};
 
-/// \[bytes\] of a frame's content at most: an [`Outputs`](crate::message::Outputs) with all values and changes.
+/// \[bytes\] maximum content of a frame: an [`Outputs`](crate::message::Outputs) with all values and changes.
 pub const MAX_CONTENT: usize = 1 + 8 + 1 + 48 + 8 * MAX_VALUES + 15 * MAX_CHANGES + 4;
-/// \[bytes\] of a frame at most.
+/// \[bytes\] maximum length of a frame.
 pub const MAX_FRAME: usize = MAX_CONTENT + MAX_CONTENT / 254 + 3;
 /// \[bytes\] of the checksum.
 const CHECKSUM: usize = 4;
@@ -31,18 +31,18 @@ impl Default for Frame {
 }
 
 impl Frame {
-    /// The frame's bytes, both zeros included; none where nothing was encoded.
+    /// The frame's bytes, including both zeros; empty if nothing was encoded.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         self.bytes.get(..self.length).unwrap_or_default()
     }
 
-    /// Encodes a message in place of what the frame held.
+    /// Encodes a message, replacing the contents.
     pub fn encode(&mut self, header: Header, message: &Message) {
         self.length = self.encoded(header, message).unwrap_or(0);
     }
 
-    /// The frame's length; `None` where the message does not fit, which no message of this crate does.
+    /// The frame's length; `None` if the message does not fit, which is impossible for messages of this crate.
     fn encoded(&mut self, header: Header, message: &Message) -> Option<usize> {
         let mut content = [0; MAX_CONTENT];
         content[0] = VERSION;
@@ -88,17 +88,17 @@ impl Default for Receiver {
 }
 
 impl Receiver {
-    /// Takes a byte of the line; what was received where it ends a frame. A frame that is too long is reported
-    /// once, at its end.
+    /// Processes a byte of the line; returns the message if it ends a frame. A frame that is too long is reported once,
+    /// at its end.
     ///
     /// # Errors
-    /// [`FrameError`] where what ends is not a frame.
+    /// [`FrameError`] if the bytes are not a frame.
     pub fn push(&mut self, byte: u8) -> Result<Option<(Header, Message)>, FrameError> {
         if byte != 0 {
             if let Some(free) = self.bytes.get_mut(self.length) {
                 *free = byte;
             }
-            // One more than the buffer holds says that it was too long.
+            // One more than the buffer size indicates that it was too long.
             self.length = (self.length + 1).min(MAX_FRAME + 1);
             return Ok(None);
         }
@@ -187,7 +187,7 @@ mod tests {
         }
     }
 
-    /// The bytes of a frame, for other implementations of the protocol; docs/hil.md has them.
+    /// The bytes of a frame, for other implementations of the protocol; documented in docs/hil.md.
     #[test]
     fn a_frame_is_these_bytes() {
         let message = Message::Inputs(Inputs { step: 300, values: Values::from_iter([1.5]) });
@@ -224,7 +224,7 @@ mod tests {
         let mut other = [0; 16];
         let length = cobs::encode(&content, &mut other);
         assert_eq!(after(&other[..length]), [Err(FrameError::Version(2))]);
-        // A message and a byte more.
+        // A message with an extra byte.
         let mut content = [VERSION, 0, 0, 11, 9, 0, 0, 0, 0];
         let seal = CRC.checksum(&content[..5]).to_le_bytes();
         content[5..].copy_from_slice(&seal);
@@ -233,7 +233,7 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever the line does, only what was sent is received, and the receiver goes on.
+        /// For any behaviour of the line, only sent messages are received, and the receiver recovers.
         #[test]
         fn noise_is_never_a_message(noise: Vec<u8>, cut in 0_usize..700, flip in 0_usize..5600) {
             let frame = encoded(LAST, &largest());

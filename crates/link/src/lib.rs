@@ -1,17 +1,17 @@
 //! Hardware in the loop: a plant and its controller at the two ends of a serial line.
 //!
-//! One end steps the plant ([`PlantEnd`]), the other one drives it ([`ControllerEnd`]); either may be a
-//! microcontroller, either a PC. Frames carry a version, a session, a sequence number, a step number and a CRC-32;
-//! whatever the line does, no frame steps the plant wrongly. `no_std`, nothing is allocated. The protocol is described in
-//! the book's page on hardware in the loop.
+//! One end steps the plant ([`PlantEnd`]), the other one drives it ([`ControllerEnd`]); each may be a microcontroller
+//! or a PC. Frames carry a version, a session, a sequence number, a step number and a CRC-32, so that no disturbance of
+//! the line steps the plant wrongly. The crate is `no_std` and does not allocate. The protocol is described in the
+//! book's page on hardware in the loop.
 //!
 //! The modules, each of which uses only those before it:
 //!
-//! - [`message`]: what the two ends say to each other.
+//! - [`message`]: messages between the two ends.
 //! - [`frame`]: messages as bytes.
-//! - [`device`]: what the plant's end needs of a plant; the kernel's plant.
+//! - [`device`]: the interface of a plant for its end; the kernel's plant.
 //! - [`plant_end`], [`controller_end`]: the two ends.
-//! - [`host`]: the PC's half (feature `host`).
+//! - [`host`]: the PC side (feature `host`).
 #![cfg_attr(not(feature = "host"), no_std)]
 #![forbid(unsafe_code)]
 

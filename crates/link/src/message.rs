@@ -1,24 +1,24 @@
-//! Messages of the protocol: what plant and controller say to each other.
+//! Messages of the protocol between plant and controller.
 //!
-//! Postcard (a stable binary format) encodes them in the order in which fields and variants are declared
-//! here: a change of either needs another [`VERSION`].
+//! Postcard (a stable binary format) encodes fields and variants in declaration order: changing it requires another
+//! [`VERSION`].
 
 use heapless::{String, Vec};
 use serde::{Deserialize, Serialize};
 
 /// Version of the protocol, the first byte of every frame.
 pub const VERSION: u8 = 1;
-/// Numbers that a message carries at most.
+/// Maximum number of values in a message.
 pub const MAX_VALUES: usize = 64;
-/// \[bytes\] of a snapshot that a message carries at most.
+/// \[bytes\] maximum piece of a snapshot in a message.
 pub const MAX_CHUNK: usize = 128;
-/// Changes of the inputs that an [`Outputs`] lists at most.
+/// Maximum number of input changes in an [`Outputs`].
 pub const MAX_CHANGES: usize = 4;
 
-/// Values of inputs or sensors, in the order of the [`Identity`]. Double precision holds those of every precision
+/// Values of inputs or sensors, in the order of the [`Identity`]. Double precision represents those of every precision
 /// exactly.
 pub type Values = Vec<f64, MAX_VALUES>;
-/// Values as they are sent: in single precision where that holds all of them exactly, else in double.
+/// Values as sent: in single precision if that represents all of them exactly, else in double.
 #[allow(clippy::large_enum_variant)] // It lives for one frame.
 #[derive(Serialize, Deserialize)]
 enum Packed {
@@ -26,7 +26,7 @@ enum Packed {
     Double(Values),
 }
 
-/// How values are sent and received.
+/// Encoding of values.
 mod packed {
     use serde::{Deserialize as _, Deserializer, Serialize as _, Serializer};
 
@@ -50,10 +50,10 @@ mod packed {
     }
 }
 
-/// A name, cut where it is longer.
+/// A name, truncated if it is longer.
 pub type Name = String<32>;
 
-/// What comes before each message.
+/// The header of each message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
     /// The session that the controller opened; 0 means that no session is open.
@@ -63,7 +63,7 @@ pub struct Header {
 }
 
 /// A message.
-// A frame is decoded in place, once: no message is kept in number.
+// A frame is decoded once, in place: messages are not stored in bulk.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Message {
@@ -79,14 +79,14 @@ pub enum Message {
     Outputs(Outputs),
     /// Controller: asks for a piece of the plant's state. At offset 0 the plant takes a new snapshot.
     Save {
-        /// \[bytes\] where the piece begins.
+        /// \[bytes\] offset of the piece.
         offset: u32,
     },
     /// Plant: the piece.
     Saved(Chunk),
-    /// Controller: a piece of the state from which the plant is to go on.
+    /// Controller: a piece of the state from which the plant continues.
     Restore(Chunk),
-    /// Plant: has this many bytes of it; the state is taken where they are all.
+    /// Plant: number of bytes received; the state is applied when complete.
     Restored {
         /// \[bytes\] that have arrived in order.
         received: u32,
@@ -101,7 +101,7 @@ pub enum Message {
     Farewell,
 }
 
-/// What steps: two ends talk only where all of it but the names is equal.
+/// The identity of the plant: two ends communicate only if all of it except the names is equal.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Identity {
     /// Name of the scene.
@@ -112,8 +112,8 @@ pub struct Identity {
     pub precision: Name,
     /// \[s\] the step.
     pub step: f64,
-    /// Version of the snapshots, fingerprints of scheme and model (constants, initial state, precision and
-    /// step): the head of a snapshot.
+    /// Version of the snapshots, fingerprints of scheme and model (constants, initial state, precision and step): the
+    /// header of a snapshot.
     pub fingerprint: [u8; 14],
     /// Inputs that are not driven by a table of the scene.
     pub inputs: u8,
@@ -132,14 +132,14 @@ pub enum Mismatch {
     Step,
     /// Another precision.
     Precision,
-    /// Another scheme or way of damping.
+    /// Another scheme or damping method.
     Scheme,
     /// Other constants or another initial state.
     Model,
 }
 
 impl Mismatch {
-    /// What differs, in words.
+    /// The name of the difference.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -154,7 +154,7 @@ impl Mismatch {
 }
 
 impl Identity {
-    /// The first difference to another identity, if any. Names that were cut do not count.
+    /// The first difference from another identity, if any. Names are ignored.
     #[must_use]
     pub fn mismatch(&self, other: &Self) -> Option<Mismatch> {
         // Bytes 0 and 1 are the version, 2 to 5 the scheme, 6 to 13 the model.
@@ -178,7 +178,7 @@ impl Identity {
 /// Who advances the plant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mode {
-    /// The controller: the plant takes its steps when inputs arrive and waits for them for ever.
+    /// The controller: the plant takes its steps when inputs arrive and waits for them indefinitely.
     #[default]
     Lockstep,
     /// A timer: the plant takes its steps at each tick, with the newest inputs.
@@ -197,14 +197,14 @@ pub enum Policy {
     Stop,
 }
 
-/// How a session runs.
+/// Settings of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Settings {
     /// Who advances the plant.
     pub mode: Mode,
     /// Steps per frame of inputs, or per tick.
     pub steps: u32,
-    /// What happens when the controller is late.
+    /// Reaction to a late controller.
     pub policy: Policy,
     /// Ticks without inputs after which it is late. At least 1.
     pub timeout: u32,
@@ -221,18 +221,18 @@ impl Default for Settings {
 pub struct Hello {
     /// What the controller expects.
     pub identity: Identity,
-    /// How the session is to run.
+    /// The requested settings.
     pub settings: Settings,
 }
 
 /// Answers a [`Hello`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Welcome {
-    /// What steps.
+    /// The plant's identity.
     pub identity: Identity,
-    /// Where the plant stands.
+    /// The plant's present outputs.
     pub outputs: Outputs,
-    /// \[µs\] from tick to tick; 0 where no timer ticks.
+    /// \[µs\] period of ticks; 0 without a timer.
     pub period: u32,
 }
 
@@ -241,13 +241,13 @@ pub struct Welcome {
 pub enum Refusal {
     /// No session is open, or another one.
     Session,
-    /// The two models differ; with the plant's own identity.
+    /// The two models differ; with the plant's identity.
     Identity(Mismatch, Identity),
     /// The plant has no timer for [`Mode::RealTime`], or the settings ask for 0 steps.
     Settings,
-    /// The inputs are of another step than the plant's present one, which is given.
+    /// The inputs belong to another step than the plant's present one, which is given.
     Step(u64),
-    /// A number too many or too few, or one that is not finite in the plant's precision.
+    /// The number of values is wrong, or a value is not finite in the plant's precision.
     Values,
     /// The plant has failed; it needs a state.
     Failed,
@@ -265,7 +265,7 @@ pub struct Inputs {
     pub values: Values,
 }
 
-/// When the plant's inputs changed, and to what.
+/// A change of the plant's inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Change {
     /// Steps that were done before.
@@ -274,19 +274,19 @@ pub struct Change {
     pub sequence: u32,
 }
 
-/// Where a plant stands.
+/// The outputs of a plant.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Outputs {
     /// Steps since t = 0.
     pub step: u64,
     /// Whether the plant has not failed.
     pub running: bool,
-    /// The hash of the state's stored words: equal where all bits are.
+    /// The hash of the state's stored words: equal if all bits are equal.
     #[serde(with = "postcard::fixint::le")]
     pub hash: u64,
     /// The sequence number of the newest [`Inputs`] that arrived.
     pub received: u32,
-    /// Values of the sensors; not a number where a sensor has none.
+    /// Values of the sensors; NaN if undefined.
     #[serde(with = "packed")]
     pub values: Values,
     /// The last changes of the inputs, oldest first.
@@ -296,15 +296,15 @@ pub struct Outputs {
 /// A piece of a snapshot.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Chunk {
-    /// \[bytes\] of the whole snapshot.
+    /// \[bytes\] size of the whole snapshot.
     pub total: u32,
-    /// \[bytes\] where the piece begins.
+    /// \[bytes\] offset of the piece.
     pub offset: u32,
     /// The piece.
     pub bytes: Vec<u8, MAX_CHUNK>,
 }
 
-/// What an end has seen since it started.
+/// Statistics of an end since its start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Frames sent.
@@ -315,25 +315,25 @@ pub struct Statistics {
     pub bad: u32,
     /// Frames of another version of the protocol.
     pub version: u32,
-    /// Frames that came twice, or after a newer one, or too late for their step.
+    /// Frames that arrived twice, after a newer one, or too late for their step.
     pub late: u32,
     /// Frames missing between two sequence numbers.
     pub dropped: u32,
-    /// Frames of no open session.
+    /// Frames without an open session.
     pub foreign: u32,
     /// Frames that were understood and refused.
     pub refused: u32,
-    /// Questions that were answered a second time, for the first answer was lost.
+    /// Questions answered again because the first answer was lost.
     pub repeated: u32,
     /// Bytes that the receiver of the line lost.
     pub lost: u32,
-    /// Times that the controller was late by more than the timeout.
+    /// Number of times the controller was late by more than the timeout.
     pub timeouts: u32,
     /// Ticks of the timer.
     pub ticks: u32,
-    /// Ticks that came while the one before was still at work.
+    /// Ticks that occurred during processing of the previous one.
     pub overruns: u32,
-    /// \[cycles\] of the slowest call that stepped; 0 where they are not counted.
+    /// \[cycles\] of the slowest call that stepped; 0 if not counted.
     pub slowest: u32,
 }
 

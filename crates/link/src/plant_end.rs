@@ -1,8 +1,8 @@
-//! The plant's end of the line: what it does with each frame, each tick and each silence.
+//! The plant's end of the line: reactions to frames, ticks and timeouts.
 //!
-//! `bytes, ticks => steps of the plant, frames`. A frame steps the plant only where it is whole, of the open session,
-//! newer than the last one and, in lockstep, of the plant's present step. Everything else is counted, and changes
-//! nothing. The end neither waits nor allocates: a program gives it bytes and ticks as they come.
+//! `bytes, ticks => steps of the plant, frames`. A frame steps the plant only if it is complete, of the open session,
+//! newer than the last one and, in lockstep, of the plant's present step. All others are counted and change nothing.
+//! The end neither waits nor allocates: the program passes bytes and ticks as they arrive.
 
 use heapless::Vec;
 
@@ -15,10 +15,10 @@ use crate::message::{
 
 /// The line to the other end.
 pub trait Line {
-    /// Sends a whole frame, without waiting for more than the line's own buffer.
+    /// Sends a whole frame, waiting at most for space in the line's buffer.
     fn send(&mut self, frame: &[u8]);
 
-    /// A counter of the core's cycles, to time what steps; 0 where there is none.
+    /// The core's cycle counter, to time steps; 0 without one.
     fn cycles(&self) -> u32 {
         0
     }
@@ -34,7 +34,7 @@ impl<F: FnMut(&[u8])> Line for F {
 pub struct PlantEnd<D, const N: usize> {
     device: D,
     identity: Identity,
-    /// \[µs\] from tick to tick; 0 without a timer.
+    /// \[µs\] period of ticks; 0 without a timer.
     period: u32,
     receiver: Receiver,
     frame: Frame,
@@ -43,9 +43,9 @@ pub struct PlantEnd<D, const N: usize> {
     statistics: Statistics,
     changes: Vec<Change, MAX_CHANGES>,
     snapshot: [u8; N],
-    /// \[bytes\] of the buffer that are a snapshot taken.
+    /// \[bytes\] length of the taken snapshot in the buffer.
     saved: usize,
-    /// \[bytes\] of the buffer that are the begin of a state that arrives.
+    /// \[bytes\] received so far of an incoming state.
     arrived: usize,
 }
 
@@ -53,20 +53,20 @@ pub struct PlantEnd<D, const N: usize> {
 struct Session {
     number: u16,
     settings: Settings,
-    /// Of the newest frame.
+    /// Sequence number of the newest frame.
     sequence: u32,
-    /// Of the newest inputs.
+    /// Sequence number of the newest inputs.
     received: u32,
-    /// Ticks since they came.
+    /// Ticks since they arrived.
     silent: u32,
 }
 
 impl<D: Device, const N: usize> PlantEnd<D, N> {
-    /// The end of a plant at the line, with a timer that ticks every `period` \[µs\]; 0 where there is none, and
-    /// lockstep alone is possible.
+    /// The end of a plant at the line, with a timer that ticks every `period` \[µs\]; 0 without a timer, which allows
+    /// only lockstep.
     ///
-    /// `None` where the plant has failed, a snapshot takes more than `N` bytes, or it has as many as
-    /// [`MAX_VALUES`] inputs or sensor values.
+    /// `None` if the plant has failed, a snapshot requires more than `N` bytes, or it has at least [`MAX_VALUES`]
+    /// inputs or sensor values.
     pub fn new(device: D, period: u32) -> Option<Self> {
         let (mut identity, mut snapshot) = (device.identity(), [0; N]);
         device.save(&mut snapshot)?;
@@ -96,12 +96,12 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
         &self.device
     }
 
-    /// What it is, as the other end compares it.
+    /// Its identity, which the other end compares.
     pub const fn identity(&self) -> &Identity {
         &self.identity
     }
 
-    /// What was seen since the start.
+    /// Statistics since the start.
     pub const fn statistics(&self) -> &Statistics {
         &self.statistics
     }
@@ -116,7 +116,7 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
         self.statistics.lost = self.statistics.lost.saturating_add(bytes);
     }
 
-    /// Takes a byte of the line.
+    /// Processes a byte of the line.
     pub fn receive(&mut self, byte: u8, line: &mut impl Line) {
         match self.receiver.push(byte) {
             Ok(None) => {}
@@ -126,8 +126,8 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
         }
     }
 
-    /// A tick of the timer, `missed` others before it having come too early: in real time the plant takes its steps and
-    /// sends its outputs. Ticks that were missed are not made up for.
+    /// A tick of the timer, after `missed` ticks that came too early: in real time the plant takes its steps and sends
+    /// its outputs. Missed ticks are not made up for.
     pub fn tick(&mut self, missed: u32, line: &mut impl Line) {
         add(&mut self.statistics.ticks, 1);
         add(&mut self.statistics.overruns, missed);
@@ -136,7 +136,7 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
             return;
         }
         let Settings { steps, policy, timeout, .. } = session.settings;
-        // 0 in the tick that follows inputs.
+        // 0 in the tick after inputs.
         let silent = session.silent;
         session.silent = silent.saturating_add(1);
         let late = silent > timeout;
@@ -154,7 +154,7 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
         self.send_outputs(line);
     }
 
-    /// What a frame asks for.
+    /// Processes a request.
     fn take(&mut self, header: Header, message: Message, line: &mut impl Line) {
         if let Message::Hello(hello) = message {
             return self.greet(header, &hello, line);
@@ -184,16 +184,16 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
                 self.session = None;
                 self.send(number, &Message::Farewell, line);
             }
-            // What a plant says, not a controller: an echo of the line.
+            // A message of a plant, not of a controller: an echo of the line.
             _ => add(&mut self.statistics.refused, 1),
         }
     }
 
-    /// Opens a session, or answers again where it is open.
+    /// Opens a session, or answers again if it is open.
     fn greet(&mut self, header: Header, hello: &Hello, line: &mut impl Line) {
         add(&mut self.statistics.good, 1);
         if let Some(open) = self.session.as_mut().filter(|open| open.number == header.session) {
-            // Asked again: its answer was lost, or the line repeated the question.
+            // A repeated question: the answer was lost, or the line repeated the question.
             let ahead = header.sequence.wrapping_sub(open.sequence);
             if ahead <= u32::MAX / 2 {
                 open.sequence = header.sequence;
@@ -231,12 +231,12 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
         self.send(header.session, &Message::Welcome(welcome), line);
     }
 
-    /// Takes inputs; in lockstep the plant takes its steps, too.
+    /// Sets inputs; in lockstep the plant also takes its steps.
     fn drive(&mut self, header: Header, inputs: &Inputs, line: &mut impl Line) {
         let Some(Session { settings, .. }) = self.session else { return };
         let step = self.device.step();
         if settings.mode == Mode::Lockstep && inputs.step != step {
-            // Its answer was lost: the same question again.
+            // The same question again: its answer was lost.
             if inputs.step.checked_add(u64::from(settings.steps)) == Some(step) {
                 add(&mut self.statistics.repeated, 1);
                 return self.send_outputs(line);
@@ -261,7 +261,7 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
         }
     }
 
-    /// Sets all inputs or none; whether they were accepted.
+    /// Sets all inputs or none; returns whether they were accepted.
     fn set_all(&mut self, values: &Values) -> bool {
         if values.len() != usize::from(self.identity.inputs) {
             return false;
@@ -281,17 +281,17 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
         false
     }
 
-    /// Notes that the inputs are of another frame from the present step on.
+    /// Records that the inputs come from another frame from the present step on.
     fn changed(&mut self, sequence: u32) {
         let change = Change { step: self.device.step(), sequence };
         match self.changes.last_mut() {
-            // Two frames before one step: the newer one counts.
+            // Two frames before one step: the newer one applies.
             Some(last) if last.step == change.step => *last = change,
             _ => {
                 if self.changes.is_full() {
                     self.changes.remove(0);
                 }
-                // There is room now.
+                // There is space now.
                 _ = self.changes.push(change);
             }
         }
@@ -324,7 +324,7 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
         }
     }
 
-    /// A piece of the state, of a new snapshot at offset 0.
+    /// A piece of the state; at offset 0 a new snapshot is taken.
     fn save(&mut self, offset: u32, line: &mut impl Line) {
         if offset == 0 {
             self.arrived = 0;
@@ -343,14 +343,14 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
         self.reply(&Message::Saved(chunk), line);
     }
 
-    /// Takes a piece of a state; the plant goes on from it where it was the last.
+    /// Receives a piece of a state; the plant continues from it after the last piece.
     fn restore(&mut self, chunk: &Chunk, line: &mut impl Line) {
         let (start, total) = (chunk.offset as usize, chunk.total as usize);
         if start == 0 {
             (self.saved, self.arrived) = (0, 0);
         }
         let end = start.saturating_add(chunk.bytes.len());
-        // A piece that came before is answered again; one too early is not.
+        // A repeated piece is answered again; one too early is not.
         let place = if total <= N && end <= total && start <= self.arrived {
             self.snapshot.get_mut(start..end)
         } else {
@@ -365,7 +365,7 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
                 self.arrived = 0;
                 return self.refuse(Refusal::State, line);
             }
-            // The inputs are those of the snapshot now.
+            // The inputs are now those of the snapshot.
             self.changes.clear();
         }
         let received = end as u32;
@@ -390,7 +390,7 @@ impl<D: Device, const N: usize> PlantEnd<D, N> {
     }
 }
 
-/// Adds to a counter, which stays at its end.
+/// Adds to a counter, which saturates.
 fn add(counter: &mut u32, count: u32) {
     *counter = counter.saturating_add(count);
 }

@@ -1,10 +1,10 @@
 //! The magnetic encoder AS5047P: an absolute angle of 14 bits over SPI.
 //!
-//! `(counts, frames) => frames`. After the datasheet of ams, AS5047P v1-09, "SPI Interface" and "Volatile
-//! Registers": frames of 16 bits, each delimited by chip select; even parity in bit 15; a command is
-//! answered in the next frame; bit 14 of an answer tells an error of the frame before, which ERRFL
-//! holds until it is read. Direction and zero position act; the one-time programming, the
-//! field's strength and the PWM and ABI outputs' settings are kept and have no effect.
+//! `(counts, frames) => frames`. According to the datasheet of ams, AS5047P v1-09, "SPI Interface" and "Volatile
+//! Registers": frames of 16 bits, each delimited by chip select; even parity in bit 15; a command is answered in the
+//! next frame; bit 14 of an answer indicates an error of the previous frame, which ERRFL stores until it is read.
+//! Direction and zero position are implemented; one-time programming, field strength and the settings of the PWM and
+//! ABI outputs are stored without effect.
 
 use crate::encoder::Counting;
 use crate::fault::{Fault, Problem, WiringError};
@@ -12,13 +12,13 @@ use crate::machine::Machine;
 use crate::part::{Link, Linked, Part, Wires};
 use crate::spi::SpiPart;
 
-/// Counts of a turn.
+/// Counts per revolution.
 pub const COUNTS: u32 = 16_384;
 
 const NOP: u16 = 0x0000;
 const ERRFL: u16 = 0x0001;
 const PROG: u16 = 0x0003;
-/// The first of the settings' registers: ZPOSM, ZPOSL, SETTINGS1, SETTINGS2.
+/// The first settings register: ZPOSM, ZPOSL, SETTINGS1, SETTINGS2.
 const ZPOSM: u16 = 0x0016;
 const DIAAGC: u16 = 0x3ffc;
 const MAG: u16 = 0x3ffd;
@@ -28,11 +28,11 @@ const ANGLECOM: u16 = 0x3fff;
 const DATA: u16 = 0x3fff;
 const READ: u16 = 1 << 14;
 const ERROR: u16 = 1 << 14;
-/// Of ERRFL: a frame that is not of 16 bits, a register that is not there, odd parity.
+/// Bits of ERRFL: frame not of 16 bits, unknown register, odd parity.
 const FRERR: u16 = 1;
 const INVCOMM: u16 = 1 << 1;
 const PARERR: u16 = 1 << 2;
-/// Of SETTINGS1.
+/// Bit of SETTINGS1.
 const DIR: u16 = 1 << 2;
 
 /// An encoder of 16384 counts per turn behind the chip's registers.
@@ -68,7 +68,7 @@ impl<E: Counting> As5047p<E> {
         }
     }
 
-    /// The angle that it shows: 14 bits.
+    /// The displayed angle: 14 bits.
     pub fn angle(&self) -> u16 {
         let [zero_high, zero_low, settings, _] = self.settings;
         let zero = (zero_high & 0xff) << 6 | (zero_low & 0x3f);
@@ -97,7 +97,7 @@ impl<E: Counting> As5047p<E> {
         Some(())
     }
 
-    /// What a whole frame does; the answer of the next one.
+    /// Executes a complete frame; returns the answer of the next one.
     fn frame(&mut self, frame: u16) -> u16 {
         let data = frame & DATA;
         if !frame.count_ones().is_multiple_of(2) {
@@ -108,7 +108,7 @@ impl<E: Counting> As5047p<E> {
         let answer = if let Some(address) = self.writing.take() {
             self.write(address, data).and_then(|()| self.read(address))
         } else if frame & READ == 0 {
-            // What is written now is answered with what was there before.
+            // A write is answered with the previous contents.
             let old = self.read_setting(data);
             self.writing = old.map(|_| data);
             old
@@ -124,7 +124,7 @@ impl<E: Counting> As5047p<E> {
         }
     }
 
-    /// A register that can be written; NOP as a write does nothing.
+    /// A writable register; writing NOP has no effect.
     fn read_setting(&mut self, address: u16) -> Option<u16> {
         match address {
             ERRFL | DIAAGC | MAG | ANGLEUNC | ANGLECOM => None,
@@ -197,7 +197,7 @@ impl<E: Counting> Counting for As5047p<E> {
 impl<M: Machine, E: Counting + Part<M>> Part<M> for As5047p<E> {
     fn wire(&mut self, wires: &mut Wires<'_, M>) -> Result<(), WiringError> {
         if self.encoder.counts_per_turn() != COUNTS {
-            let problem = Problem::Parameter("the number of counts, here always 16384,");
+            let problem = Problem::Parameter("the number of counts (fixed at 16384)");
             return Err(WiringError { name: self.encoder.name(), problem });
         }
         self.encoder.wire(wires)

@@ -1,8 +1,8 @@
-//! Time passes for the machine while its controller waits.
+//! Advances the machine while its controller waits.
 //!
-//! `ns => steps of the node`. For a program without a clock of its own: the controller's loop waits, and
-//! the machine takes the steps that fit; the remainder is carried ([`crate::node`]). Where a timer
-//! paces the node, the controller waits by the board's own delay.
+//! `ns => steps of the node`. For a program without a clock: the controller's loop waits, and the machine takes as many
+//! whole steps; the remainder is carried over ([`crate::node`]). If a timer paces the node, the controller uses the
+//! board's delay.
 
 use embedded_hal::delay::DelayNs;
 
@@ -12,12 +12,12 @@ use crate::node::Node;
 use crate::part::Part;
 use crate::share::Shared;
 
-/// What lets time pass.
+/// Something that can advance time.
 pub trait Waiting {
-    /// Lets time pass \[ns\].
+    /// Advances time \[ns\].
     ///
     /// # Errors
-    /// [`Fault`] where it stands still.
+    /// [`Fault`] if it is stopped.
     fn wait(&mut self, nanoseconds: u32) -> Result<(), Fault>;
 }
 
@@ -41,7 +41,7 @@ impl<C: Shared<Part: Waiting>> NodeDelay<C> {
         Self { cell, fault: None }
     }
 
-    /// The first fault of a wait, which the trait cannot tell: the time did not pass then.
+    /// The first fault of a wait, which the trait cannot report: time did not advance.
     pub const fn fault(&self) -> Option<Fault> {
         self.fault
     }

@@ -1,7 +1,7 @@
 //! An encoder: an angle or a travel in whole counts.
 //!
-//! `(read-out, counts per turn, errors) => counts`. Counts go up where the shaft passes a whole one:
-//! `⌊value/turn·counts⌋`. The truth may have noise, bias, delay and a resolution first.
+//! `(read-out, counts per revolution, errors) => counts`. The count is `⌊value/turn·counts⌋`. Noise, bias, delay and
+//! resolution are applied to the exact value first.
 
 use dbd_kernel::Real as _;
 use dbd_kernel::geometry::Geometry;
@@ -16,19 +16,19 @@ use crate::sensor::{Errors, Sensor};
 /// An encoder's constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EncoderParameters {
-    /// Counts of one turn, > 0; four per line of a quadrature encoder.
+    /// Counts per revolution, > 0; four per line of a quadrature encoder.
     pub counts: u32,
-    /// \[rad or m\] what the read-out shows for one turn, not 0: 2π at the joint, less behind a gear,
-    /// the circumference of a pinion; negative counts the other way.
+    /// \[rad or m\] read-out per revolution, not 0: 2π at the joint, less behind a gear, the circumference of a pinion;
+    /// negative reverses the count.
     pub turn: f64,
     /// Steps from sample to sample, at least 1.
     pub every: u32,
-    /// \[rad or m\] of the shaft's angle.
+    /// \[rad or m\] errors of the shaft's angle.
     pub errors: Errors,
 }
 
 impl EncoderParameters {
-    /// An encoder at a joint \[rad\] that samples every step, without errors but its counts.
+    /// An encoder at a joint \[rad\] that samples every step, without errors except its resolution.
     #[must_use]
     pub const fn at_joint(counts: u32) -> Self {
         Self { counts, turn: core::f64::consts::TAU, every: 1, errors: Errors::NONE }
@@ -48,7 +48,7 @@ pub struct Encoder<P: Geometry, const DELAY: usize = 0> {
 }
 
 impl<P: Geometry<Real: Number>, const DELAY: usize> Encoder<P, DELAY> {
-    /// An encoder; the probe's name is its own.
+    /// An encoder, named like its probe.
     #[must_use]
     pub fn new(probe: Probe<P>, parameters: EncoderParameters) -> Self {
         Self {
@@ -67,11 +67,11 @@ impl<P: Geometry<Real: Number>, const DELAY: usize> Encoder<P, DELAY> {
     }
 }
 
-/// What counts: the shaft's angle as a driver may see it.
+/// A counter: the shaft's angle as a driver sees it.
 pub trait Counting: Linked {
-    /// Counts since the read-out was 0, over all turns; held at the ends of their range.
+    /// Counts since the read-out was 0, over all revolutions; saturates at the ends of the range.
     fn counts(&self) -> i32;
-    /// Counts of one turn.
+    /// Counts per revolution.
     fn counts_per_turn(&self) -> u32;
 }
 

@@ -1,7 +1,7 @@
-//! An end stop: a switch that closes where a read-out passes a threshold.
+//! An end stop: a switch that closes when a read-out passes a threshold.
 //!
-//! `(read-out, threshold, hysteresis) => closed or open`. It closes at the threshold and opens again
-//! only beyond the hysteresis, as a lever does.
+//! `(read-out, threshold, hysteresis) => closed or open`. It closes at the threshold and opens again only beyond the
+//! hysteresis, like a lever switch.
 
 use dbd_kernel::Real as _;
 use dbd_kernel::geometry::Geometry;
@@ -12,7 +12,7 @@ use crate::number::Number;
 use crate::part::{Link, Linked, Part, Wires, parameter};
 use crate::probe::Probe;
 
-/// On which side of its threshold a switch is closed.
+/// The side of the threshold on which a switch is closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// At and above it.
@@ -27,7 +27,7 @@ pub struct EndStop<P: Geometry> {
     probe: Probe<P>,
     side: Side,
     bounds: [f64; 2],
-    /// Where it closes and where it opens, along the way to it.
+    /// Where it closes and where it opens, in the direction of approach.
     closes: P::Real,
     opens: P::Real,
     link: Link,
@@ -35,8 +35,8 @@ pub struct EndStop<P: Geometry> {
 }
 
 impl<P: Geometry<Real: Number>> EndStop<P> {
-    /// A switch that closes at `threshold` and opens `hysteresis` ≥ 0 back from it, both in the unit
-    /// of the read-out \[m, rad, …\]; the probe's name is its own.
+    /// A switch that closes at `threshold` and opens `hysteresis` ≥ 0 back from it, both in the unit of the read-out
+    /// \[m, rad, …\]; it is named like its probe.
     #[must_use]
     pub fn new(probe: Probe<P>, side: Side, threshold: f64, hysteresis: f64) -> Self {
         let zero = P::Real::from_f64(0.0);
@@ -45,7 +45,7 @@ impl<P: Geometry<Real: Number>> EndStop<P> {
     }
 }
 
-/// What is closed or open.
+/// A switch.
 pub trait Switch: Linked {
     /// Whether it is closed.
     fn is_closed(&self) -> bool;

@@ -1,4 +1,4 @@
-//! What can go wrong: at the start, by the name of what is wired wrongly; while it runs.
+//! Errors: wiring errors at the start, and faults at run time.
 
 use core::fmt;
 
@@ -6,17 +6,17 @@ use dbd_kernel::Failure;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::InputError;
 
-/// A sensor or an actuator is wired to nothing, or to the wrong thing.
+/// A sensor or an actuator is not wired, or wired wrongly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct WiringError {
-    /// The name that the program gave.
+    /// The name given by the program.
     pub name: &'static str,
-    /// What is wrong.
+    /// The problem.
     pub problem: Problem,
 }
 
-/// What is wrong with a wire.
+/// A wiring problem.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Problem {
@@ -26,16 +26,16 @@ pub enum Problem {
     NoReadout,
     /// The read-out is of another kind.
     Kind {
-        /// What is wired needs this.
+        /// The required kind.
         wanted: &'static str,
-        /// The read-out shows this.
+        /// The kind of the read-out.
         found: &'static str,
     },
-    /// A parameter is out of its range: which.
+    /// A parameter is out of range: its name.
     Parameter(&'static str),
     /// Two parts drive the same input.
     Shared(InputIndex),
-    /// The part stands behind a driver but no node steps it.
+    /// The part has a driver but no node steps it.
     NoNode,
     /// The part is stepped by two nodes, or twice by one.
     Twice,
@@ -50,36 +50,36 @@ impl fmt::Display for WiringError {
             Problem::Input(error) => write!(f, "{error}"),
             Problem::NoReadout => write!(f, "the model has no such read-out"),
             Problem::Kind { wanted, found } => {
-                write!(f, "the read-out shows {found} where {wanted} is needed")
+                write!(f, "the read-out is {found}, expected {wanted}")
             }
-            Problem::Parameter(which) => write!(f, "{which} is out of its range"),
+            Problem::Parameter(which) => write!(f, "{which} is out of range"),
             Problem::Shared(input) => write!(f, "another part drives input {}", input.0),
-            Problem::NoNode => write!(f, "no node steps it"),
-            Problem::Twice => write!(f, "it is stepped twice"),
-            Problem::Busy => write!(f, "it is in use elsewhere, or not there yet"),
+            Problem::NoNode => write!(f, "no node steps this part"),
+            Problem::Twice => write!(f, "the part is stepped twice"),
+            Problem::Busy => write!(f, "the part is in use elsewhere or its slot is empty"),
         }
     }
 }
 
 impl core::error::Error for WiringError {}
 
-/// Why a driver's call failed, or a node stands still.
+/// Why a driver's call failed, or a node is stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Fault {
-    /// The plant failed: it diverged, or its steps are at an end.
+    /// The plant failed: it diverged, or its step counter is exhausted.
     Plant(Failure),
     /// An input refused its value: it is not finite.
     Input(InputError),
-    /// A read-out, by its name, is undefined now.
+    /// A read-out, by its name, is currently undefined.
     Readout(&'static str),
-    /// A part or a node is in use at the same time elsewhere.
+    /// A part or a node is in use elsewhere at the same time.
     Busy,
-    /// Nothing steps the part any more, or not yet.
+    /// No node steps the part, any more or yet.
     NotWired,
-    /// A duty above the largest.
+    /// A duty above its maximum.
     Duty,
-    /// I2C: nothing answers at this address.
+    /// I2C: no device answers at this address.
     Address(u8),
 }
 
@@ -88,11 +88,11 @@ impl fmt::Display for Fault {
         match self {
             Fault::Plant(failure) => write!(f, "the plant failed: {failure}"),
             Fault::Input(error) => write!(f, "{error}"),
-            Fault::Readout(name) => write!(f, "`{name}` is undefined now"),
+            Fault::Readout(name) => write!(f, "`{name}` is currently undefined"),
             Fault::Busy => write!(f, "in use elsewhere"),
-            Fault::NotWired => write!(f, "no node steps it"),
-            Fault::Duty => write!(f, "the duty is above the largest"),
-            Fault::Address(address) => write!(f, "nothing answers at {address:#04x}"),
+            Fault::NotWired => write!(f, "no node steps this part"),
+            Fault::Duty => write!(f, "the duty exceeds its maximum"),
+            Fault::Address(address) => write!(f, "no device answers at {address:#04x}"),
         }
     }
 }

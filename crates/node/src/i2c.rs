@@ -1,8 +1,7 @@
 //! I2C: parts with addresses on two wires.
 //!
-//! `(address, bytes of the driver) => bytes of the part, or no acknowledge`. Reads and writes that follow
-//! each other are joined as the trait asks: a (repeated) start stands where the direction changes.
-//! Transfers take no time.
+//! `(address, bytes of the driver) => bytes of the part, or no acknowledge`. Consecutive reads and writes are joined as
+//! the trait requires: a (repeated) start occurs where the direction changes. Transfers take no time.
 
 use embedded_hal::i2c::{ErrorType, I2c, Operation};
 
@@ -12,11 +11,11 @@ use crate::share::Shared;
 
 /// A part that speaks I2C, byte by byte.
 pub trait I2cPart: Linked {
-    /// The address of seven bits that it answers to.
+    /// Its seven-bit address.
     fn address(&self) -> u8;
     /// A start, or a repeated one, with this part's address; bytes follow to or from it.
     fn start(&mut self, reading: bool);
-    /// A byte of the driver's.
+    /// A byte from the driver.
     fn take(&mut self, byte: u8);
     /// A byte for the driver.
     fn give(&mut self) -> u8;
@@ -24,18 +23,18 @@ pub trait I2cPart: Linked {
     fn finish(&mut self);
 }
 
-/// What is joined to the two wires: a part in its cell, or several in a tuple.
+/// Devices on the bus: a part in its cell, or several in a tuple.
 pub trait OnI2c {
-    /// Runs a transaction where the address is that of a part; `false` where it is of none.
+    /// Runs a transaction with the part at an address; `false` if there is none.
     ///
     /// # Errors
-    /// [`Fault`] where the part is in use elsewhere or stands still.
+    /// [`Fault`] if the part is in use elsewhere or stopped.
     fn transact(&self, address: u8, operations: &mut [Operation<'_>]) -> Result<bool, Fault>;
 
     /// Checks that a node steps every part.
     ///
     /// # Errors
-    /// [`WiringError`] with the name of the first that none does.
+    /// [`WiringError`] with the name of the first that no node steps.
     fn check(&self) -> Result<(), WiringError>;
 }
 
@@ -98,7 +97,7 @@ on_i2c!(A B);
 on_i2c!(A B C);
 on_i2c!(A B C D);
 
-/// The wires as an `I2c` of addresses of seven bits.
+/// The bus as an `I2c` with seven-bit addresses.
 #[derive(Clone, Copy, Debug)]
 pub struct I2cEnd<T>(T);
 
@@ -106,7 +105,7 @@ impl<T: OnI2c> I2cEnd<T> {
     /// The bus of a part in its cell, or of a tuple of them.
     ///
     /// # Errors
-    /// [`WiringError`] where no node steps one of them.
+    /// [`WiringError`] if no node steps one of them.
     pub fn new(parts: T) -> Result<Self, WiringError> {
         parts.check()?;
         Ok(Self(parts))

@@ -1,20 +1,20 @@
-//! A plant behind `embedded-hal`: the far side of a controller's drivers, on a PC and on a chip.
+//! A plant behind `embedded-hal`: virtual devices for a controller's drivers, on a PC and on a chip.
 //!
-//! A [`Node`] steps a machine, any plant of the kernel, together with its parts: motors that drive
-//! its inputs, sensors that see its read-outs. Drivers get ends that implement the traits of
-//! embedded-hal 1.0; a controller that is written against those runs unchanged. `no_std`, nothing
-//! is allocated, nothing panics, and the same seeds give the same bits on every machine.
+//! A [`Node`] steps a machine, any plant of the kernel, together with its parts: motors that drive its inputs, sensors
+//! that read its read-outs. Drivers use ports that implement the traits of embedded-hal 1.0; a controller written
+//! against those runs unchanged. The crate is `no_std`, does not allocate or panic, and the same seeds give the same
+//! bits on every machine.
 //!
 //! The modules, each of which uses only those before it:
 //!
-//! - [`number`], [`fault`]: whole numbers of a plant's; what can go wrong.
-//! - [`machine`], [`probe`]: what stands on the far side; where a sensor is fixed to it.
-//! - [`random`], [`sensor`]: seeded noise; what a sensor makes of the truth.
-//! - [`share`], [`part`], [`node`]: cells that two sides reach; what a node steps; the node.
-//! - [`motor`], [`encoder`], [`end_stop`]: parts by themselves.
+//! - [`number`], [`fault`]: conversion to integers; errors.
+//! - [`machine`], [`probe`]: the simulated machine; attachment of a sensor to it.
+//! - [`random`], [`sensor`]: seeded noise; the error model of a sensor.
+//! - [`share`], [`part`], [`node`]: shared cells; the parts that a node steps; the node.
+//! - [`motor`], [`encoder`], [`end_stop`]: parts without registers.
 //! - [`spi`], [`i2c`]: buses.
 //! - [`as5047p`], [`ls7366r`], [`mpu6000`]: parts behind registers.
-//! - [`pins`], [`pwm`], [`delay`]: the other ends.
+//! - [`pins`], [`pwm`], [`delay`]: the other driver ports.
 #![no_std]
 #![forbid(unsafe_code)]
 

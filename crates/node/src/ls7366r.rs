@@ -1,10 +1,10 @@
 //! The quadrature counter LS7366R: an incremental encoder's counts, up to 32 bits, over SPI.
 //!
-//! `(counts, instruction bytes) => bytes`. After LSI/CSI, LS7366R 32-Bit Quadrature Counter With Serial
-//! Interface, 2009: an instruction names what to do (clear, read, write, load) and a register; data
-//! of one to four bytes, the highest first, as MDR1 says, follow within the same chip select.
-//! Quadrature modes, counter width, enable and the transfers between counter, data and output
-//! register act; index, compare and modulo modes are kept and have no effect.
+//! `(counts, instruction bytes) => bytes`. According to LSI/CSI, LS7366R 32-Bit Quadrature Counter With Serial
+//! Interface, 2009: an instruction specifies an operation (clear, read, write, load) and a register; one to four data
+//! bytes, most significant first, as set in MDR1, follow within the same chip select. Quadrature modes, counter width,
+//! enable and the transfers between counter, data and output register are implemented; index, compare and modulo modes
+//! are stored without effect.
 
 use crate::encoder::Counting;
 use crate::fault::{Fault, WiringError};
@@ -12,7 +12,7 @@ use crate::machine::Machine;
 use crate::part::{Link, Linked, Part, Wires};
 use crate::spi::SpiPart;
 
-/// Registers, as bits 5 to 3 of an instruction name them.
+/// Registers, encoded in bits 5 to 3 of an instruction.
 const MDR0: u8 = 1;
 const MDR1: u8 = 2;
 const DTR: u8 = 3;
@@ -20,14 +20,14 @@ const CNTR: u8 = 4;
 const OTR: u8 = 5;
 const STR: u8 = 6;
 
-/// What to do, as bits 7 and 6 name it.
+/// Operations, encoded in bits 7 and 6.
 const CLEAR: u8 = 0;
 const READ: u8 = 1;
 const WRITE: u8 = 2;
 
-/// Of MDR1: counting is disabled.
+/// Bit of MDR1: counting is disabled.
 const DISABLED: u8 = 1 << 2;
-/// Of STR: powered up and not cleared since; counting is enabled; counting up; negative.
+/// Bits of STR: powered up and not cleared since; counting is enabled; counting up; negative.
 const POWER_LOSS: u8 = 1 << 2;
 const ENABLED: u8 = 1 << 3;
 const UP: u8 = 1 << 1;
@@ -40,7 +40,7 @@ pub struct Ls7366r<E> {
     modes: [u8; 2],
     data: u32,
     output: u32,
-    /// Counted up to now, and the encoder's count at that time.
+    /// The present count, and the encoder's count at that time.
     counter: u32,
     seen: Option<i32>,
     up: bool,
@@ -69,8 +69,8 @@ impl<E: Counting> Ls7366r<E> {
         }
     }
 
-    /// Bits that a count is shifted by: none in the mode of four counts per period, two in that of
-    /// one; without quadrature the pulses of A, one per period, count.
+    /// Shift of a count in bits: 0 with four counts per period, 2 with one; without quadrature the pulses of A, one per
+    /// period, are counted.
     fn coarse(&self) -> u32 {
         match self.modes[0] & 3 {
             3 => 0,
@@ -88,10 +88,10 @@ impl<E: Counting> Ls7366r<E> {
         u32::MAX >> (32 - self.width())
     }
 
-    /// Counts what the encoder has moved since.
+    /// Adds the encoder's counts since the last call.
     fn count(&mut self) {
         let now = self.encoder.counts();
-        // Counts from 0, wherever the shaft stands when the power comes.
+        // Counts from 0 at power-up, at any shaft angle.
         let seen = self.seen.replace(now).unwrap_or(now);
         let steps = (now >> self.coarse()).wrapping_sub(seen >> self.coarse());
         if steps != 0 && self.modes[1] & DISABLED == 0 {
@@ -109,7 +109,7 @@ impl<E: Counting> Ls7366r<E> {
             | bit(sign, NEGATIVE)
     }
 
-    /// What an instruction does before its data.
+    /// Executes the part of an instruction before its data.
     fn begin(&mut self, instruction: u8) {
         let register = instruction >> 3 & 7;
         match (instruction >> 6, register) {
@@ -132,7 +132,7 @@ impl<E: Counting> Ls7366r<E> {
         }
     }
 
-    /// A byte where it goes out first.
+    /// A byte, most significant first.
     fn shift(&self, byte: u8) -> u32 {
         u32::from(byte) << 24
     }
@@ -206,7 +206,7 @@ impl<M: Machine, E: Counting + Part<M>> Part<M> for Ls7366r<E> {
     #[inline]
     fn sense(&mut self, machine: &M) -> Result<(), Fault> {
         self.encoder.sense(machine)?;
-        // Counting goes on while it is enabled, whether somebody asks or not.
+        // Counting continues while enabled, regardless of reads.
         self.count();
         Ok(())
     }

@@ -1,7 +1,7 @@
-//! What stands on the far side of drivers: a plant, through the few calls that parts need.
+//! The simulated machine: a plant behind the few calls that parts need.
 //!
-//! `(input, value) => machine; machine => reading; steps => machine`. The kernel's plant is one; a
-//! recorded one, a remote one or one of another solver may stand in its place.
+//! `(input, value) => machine; machine => reading; steps => machine`. The kernel's plant implements it; a recorded or
+//! remote plant or another solver can too.
 
 use core::ops::Deref;
 
@@ -14,20 +14,20 @@ use dbd_kernel::{Plant, Scheme, Status};
 
 use crate::number::Number;
 
-/// A machine that is stepped, driven by inputs and seen through read-outs.
+/// A machine that is stepped, driven by inputs and observed through read-outs.
 pub trait Machine {
     /// The numbers of its inputs and read-outs.
     type Real: Number;
-    /// The precision of its points.
+    /// The precision of its positions.
     type Precision: Geometry<Real = Self::Real>;
 
-    /// Sets an input \[N, N·m or m\]; it is held until set again.
+    /// Sets an input \[N, N·m or m\], which keeps its value until set again.
     ///
     /// # Errors
-    /// [`InputError`]; nothing is changed then.
+    /// [`InputError`]; nothing is changed.
     fn set_input(&mut self, input: InputIndex, value: Self::Real) -> Result<(), InputError>;
 
-    /// Reads a sensor now; `None` where the machine has no such or its value is undefined.
+    /// Reads a sensor; `None` if the machine has no such sensor or its value is undefined.
     fn read(&self, readout: &Readout<Self::Precision>) -> Option<Reading<Self::Real>>;
 
     /// Steps until `steps` are done or one fails.

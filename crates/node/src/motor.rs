@@ -1,10 +1,10 @@
 //! A motor behind a bridge: duty to voltage or current, lag, saturation, torque, gear.
 //!
-//! `(duty, direction, speed) => input of the machine`. A direct-current motor as in Krishnan, Electric
-//! Motor Drives, 2001, ch. 2: i* = (u·V − kₑ·ω)/R within ±i_most, τ·di/dt = i* − i, M = k·i − friction.
-//! Over a step i* is constant and the lag is solved exactly: i becomes i + a·(i* − i) with
-//! a = 1 − e^(−h/τ), and the machine gets the mean over the step, so that its impulse is exact too.
-//! The coefficients are computed when it is wired, by libm in double precision on every machine.
+//! `(duty, direction, speed) => input of the machine`. A direct-current motor as in Krishnan, Electric Motor Drives,
+//! 2001, ch. 2: i* = (u·V − kₑ·ω)/R within ±i_most, τ·di/dt = i* − i, M = k·i − friction. Over a step i* is constant
+//! and the lag is solved exactly: i becomes i + a·(i* − i) with a = 1 − e^(−h/τ), and the machine gets the mean over
+//! the step, so that the impulse is exact too. The coefficients are computed at wiring, by libm in double precision on
+//! every machine.
 
 use dbd_kernel::geometry::Geometry;
 use dbd_kernel::index::InputIndex;
@@ -16,10 +16,10 @@ use crate::number::Number;
 use crate::part::{Link, Linked, Part, Wires, parameter};
 use crate::probe::Probe;
 
-/// What the bridge does with a duty.
+/// The supply of the motor by its bridge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Supply {
-    /// It puts a voltage on the winding.
+    /// A voltage on the winding.
     Voltage {
         /// \[V\] at full duty, > 0.
         full: f64,
@@ -28,7 +28,7 @@ pub enum Supply {
         /// \[V·s/rad\] back-EMF constant, ≥ 0; above 0 the motor needs a speed.
         back_emf: f64,
     },
-    /// A loop of its own holds the current.
+    /// A current controller.
     Current {
         /// \[A\] at full duty, > 0.
         full: f64,
@@ -38,20 +38,20 @@ pub enum Supply {
 /// A motor's constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorParameters {
-    /// What the bridge does with a duty.
+    /// The supply of the motor by its bridge.
     pub supply: Supply,
     /// \[N·m/A\] torque constant, > 0; \[N/A\] of a linear motor.
     pub torque_constant: f64,
-    /// \[A\] most current, either way, > 0; infinite without a limit.
+    /// \[A\] maximum current in either direction, > 0; infinite without a limit.
     pub most_current: f64,
-    /// \[s\] time constant of the current, ≥ 0; 0 follows at once.
+    /// \[s\] time constant of the current, ≥ 0; 0 without lag.
     pub lag: f64,
     /// \[N·m\] Coulomb friction on the motor's shaft, ≥ 0; above 0 the motor needs a speed.
     pub friction: f64,
-    /// \[rad/s\] motor speed from which friction is whole, > 0; below, it is proportional.
+    /// \[rad/s\] motor speed at which friction is full, > 0; proportional below.
     pub friction_speed: f64,
-    /// Turns of the motor per turn of the joint, not 0; \[1/m\] motor angle per travel where the
-    /// input is a force: one over the pinion's radius. Negative turns the other way.
+    /// Motor revolutions per joint revolution, not 0; \[1/m\] motor angle per travel if the input is a force: one over
+    /// the pinion's radius. Negative reverses the direction.
     pub ratio: f64,
     /// Duty of 100 %, > 0: counts of the timer.
     pub most_duty: u16,
@@ -90,16 +90,16 @@ pub struct Motor<P: Geometry> {
     enabled: bool,
 }
 
-/// In the machine's numbers.
+/// Constants in the machine's precision.
 #[derive(Clone, Copy, Debug)]
 struct Constants<R> {
     /// \[A\] current per duty.
     per_duty: R,
-    /// \[A·s/rad\] current that back-EMF takes per speed.
+    /// \[A·s/rad\] current reduction by back-EMF per speed.
     per_speed: R,
-    /// \[A\] either way; `None` without a limit.
+    /// \[A\] maximum in either direction; `None` without a limit.
     most: Option<R>,
-    /// What of the way to its end the current goes in a step, and its mean does.
+    /// Fraction of the way to its final value that the current covers in a step, and that of its mean.
     way: R,
     mean: R,
     torque_constant: R,
@@ -109,7 +109,7 @@ struct Constants<R> {
 }
 
 impl<P: Geometry<Real: Number>> Motor<P> {
-    /// A motor at an input, by the name that errors tell.
+    /// A motor at an input, with a name for errors.
     #[must_use]
     pub fn new(name: &'static str, input: InputIndex, parameters: MotorParameters) -> Self {
         Self {
@@ -127,7 +127,7 @@ impl<P: Geometry<Real: Number>> Motor<P> {
         }
     }
 
-    /// The motor with the speed of its joint, for back-EMF and friction \[rad/s; m/s for a force\].
+    /// The motor with the speed of its joint \[rad/s; m/s for a force\], for back-EMF and friction.
     #[must_use]
     pub fn with_speed(mut self, speed: Probe<P>) -> Self {
         self.speed = Some(speed);
@@ -139,7 +139,7 @@ impl<P: Geometry<Real: Number>> Motor<P> {
         self.current
     }
 
-    /// \[N·m or N\] what the machine's input had over the last step.
+    /// \[N·m or N\] the machine's input over the last step.
     pub fn output(&self) -> P::Real {
         self.output
     }
@@ -149,7 +149,7 @@ impl<P: Geometry<Real: Number>> Motor<P> {
         &self.parameters
     }
 
-    /// The duty with its sign, −1 to 1; a bridge that is not enabled has none.
+    /// The signed duty, −1 to 1; 0 if the bridge is disabled.
     #[inline]
     fn duty(&self) -> Option<P::Real> {
         if !self.enabled {
@@ -179,22 +179,22 @@ impl<P: Geometry<Real: Number>> Motor<P> {
                 fine("the resistance", resistance, POSITIVE)?;
                 fine("the back-EMF constant", back_emf, NOT_NEGATIVE)?;
                 if back_emf > 0.0 {
-                    needs("the speed, which back-EMF needs,")?;
+                    needs("the speed (required for back-EMF)")?;
                 }
                 (full / resistance, back_emf / resistance)
             }
             Supply::Current { full } => (full, 0.0),
         };
         if p.friction > 0.0 {
-            needs("the speed, which friction needs,")?;
+            needs("the speed (required for friction)")?;
         }
-        fine("the friction's speed", p.friction_speed, POSITIVE)?;
+        fine("the friction speed", p.friction_speed, POSITIVE)?;
         fine("the lag", p.lag, NOT_NEGATIVE)?;
-        fine("the largest duty", f64::from(p.most_duty), POSITIVE)?;
+        fine("the maximum duty", f64::from(p.most_duty), POSITIVE)?;
         let most = if p.most_current == f64::INFINITY {
             None
         } else {
-            Some(fine("the most current", p.most_current, POSITIVE)?)
+            Some(fine("the maximum current", p.most_current, POSITIVE)?)
         };
         let [way, mean] = lag(p.lag, step);
         fine("the ratio", p.ratio.abs(), POSITIVE)?;
@@ -211,7 +211,7 @@ impl<P: Geometry<Real: Number>> Motor<P> {
         })
     }
 
-    /// One step at a motor speed: the mean of what the input gets.
+    /// One step at a motor speed; returns the mean input.
     #[inline]
     fn follow(&mut self, constants: &Constants<P::Real>, speed: P::Real) -> P::Real {
         let target = match self.duty() {
@@ -231,20 +231,19 @@ impl<P: Geometry<Real: Number>> Motor<P> {
     }
 }
 
-/// What a driver sets of a motor, or of another thing behind a bridge.
+/// The settings of a bridge by a driver.
 pub trait Bridge: Linked {
     /// Duty of 100 %.
     fn most_duty(&self) -> u16;
-    /// Sets the duty of a channel: the first drives forwards, the second backwards; the difference
-    /// counts.
+    /// Sets the duty of a channel: the first drives forwards, the second backwards; their difference applies.
     fn set_duty(&mut self, channel: Channel, duty: u16);
-    /// Turns the sign of the duties.
+    /// Sets the sign of the duties.
     fn set_reversed(&mut self, reversed: bool);
-    /// Whether the sign is turned.
+    /// Whether the sign is reversed.
     fn is_reversed(&self) -> bool;
-    /// Switches the bridge on and off; off it lets no current through.
+    /// Enables or disables the bridge; disabled it conducts no current.
     fn set_enabled(&mut self, enabled: bool);
-    /// Whether it is on; it is at the start.
+    /// Whether it is enabled, as it is initially.
     fn is_enabled(&self) -> bool;
 }
 
@@ -283,14 +282,14 @@ impl<P: Geometry<Real: Number>> Bridge for Motor<P> {
     }
 }
 
-/// What of its way a first-order lag goes in a step, and its mean over the step does.
+/// Fraction of the way that a first-order lag covers in a step, and that of its mean over the step.
 fn lag(time_constant: f64, step: f64) -> [f64; 2] {
     if time_constant == 0.0 {
         return [1.0, 1.0];
     }
     let steps = step / time_constant;
     let way = -libm::expm1(-steps);
-    // 1 − way/steps cancels where the step is short: by its series then.
+    // 1 − way/steps suffers from cancellation for short steps, where its series is used.
     let mean = if steps < 1e-3 {
         steps * (0.5 - steps * (1.0 / 6.0 - steps / 24.0))
     } else {

@@ -1,10 +1,10 @@
 //! The inertial measurement units MPU-6000 and MPU-6050: registers over SPI and I2C.
 //!
-//! `(specific force, angular rate) => registers`. After InvenSense, MPU-6000 and MPU-6050 Register Map and
-//! Descriptions, RM-MPU-6000A-00 r4.2, and Product Specification PS-MPU-6000A-00 r3.4, §7.5 and §9: full
-//! scales, sample rate, sleep, reset, standby, data ready; addresses count up in a burst. Filter and
-//! interrupt settings are kept; the filter acts by the rate that it brings. FIFO, auxiliary bus and
-//! self-test are not there: their registers keep what is written, the FIFO is empty.
+//! `(specific force, angular rate) => registers`. According to InvenSense, MPU-6000 and MPU-6050 Register Map and
+//! Descriptions, RM-MPU-6000A-00 r4.2, and Product Specification PS-MPU-6000A-00 r3.4, §7.5 and §9: full scales, sample
+//! rate, sleep, reset, standby, data ready; addresses increment in a burst. Filter and interrupt settings are stored;
+//! of the filter only its sample rate has an effect. FIFO, auxiliary bus and self-test are not implemented: their
+//! registers store written values, the FIFO is empty.
 
 use dbd_kernel::geometry::Geometry;
 use dbd_kernel::readouts::{Reading, Readout};
@@ -19,7 +19,7 @@ use crate::probe::kind;
 use crate::sensor::{Errors, Sensor};
 use crate::spi::SpiPart;
 
-/// \[m/s²\] of 1 g, by which the full scales are meant.
+/// \[m/s²\] 1 g, the unit of the full scales.
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 const SMPLRT_DIV: u8 = 0x19;
@@ -28,7 +28,7 @@ const GYRO_CONFIG: u8 = 0x1b;
 const ACCEL_CONFIG: u8 = 0x1c;
 const INT_PIN_CFG: u8 = 0x37;
 const INT_STATUS: u8 = 0x3a;
-/// First of 14: specific force, temperature, rate, two bytes each, the high one first.
+/// First of 14: specific force, temperature, angular rate, two bytes each, high byte first.
 const ACCEL_XOUT_H: u8 = 0x3b;
 const TEMP_OUT_H: u8 = 0x41;
 const GYRO_XOUT_H: u8 = 0x43;
@@ -38,16 +38,16 @@ const PWR_MGMT_2: u8 = 0x6c;
 const FIFO_R_W: u8 = 0x74;
 const WHO_AM_I: u8 = 0x75;
 
-/// Of PWR_MGMT_1.
+/// Bits of PWR_MGMT_1.
 const DEVICE_RESET: u8 = 1 << 7;
 const SLEEP: u8 = 1 << 6;
-/// Of USER_CTRL: the I2C pins are SPI's alone.
+/// Bit of USER_CTRL: I2C is disabled in favour of SPI.
 const I2C_IF_DIS: u8 = 1 << 4;
-/// Of INT_PIN_CFG: any read clears INT_STATUS.
+/// Bit of INT_PIN_CFG: any read clears INT_STATUS.
 const INT_RD_CLEAR: u8 = 1 << 4;
-/// Of INT_STATUS.
+/// Bit of INT_STATUS.
 const DATA_RDY: u8 = 1;
-/// The identity, of either address.
+/// The identity, the same at either address.
 const IDENTITY: u8 = 0x68;
 
 /// An inertial measurement unit's constants.
@@ -55,11 +55,11 @@ const IDENTITY: u8 = 0x68;
 pub struct ImuParameters {
     /// I2C address: 0x68, or 0x69 with the pin AD0 high.
     pub address: u8,
-    /// \[m/s²\] of each axis's specific force; each axis has random numbers of its own.
+    /// \[m/s²\] errors of each axis's specific force; each axis has separate random numbers.
     pub accelerometer: Errors,
-    /// \[rad/s\] of each axis's rate, likewise.
+    /// \[rad/s\] errors of each axis's rate, likewise.
     pub gyroscope: Errors,
-    /// \[°C\] what the thermometer shows, −40 to 85.
+    /// \[°C\] temperature reading, −40 to 85.
     pub temperature: f64,
 }
 
@@ -74,17 +74,17 @@ impl Default for ImuParameters {
     }
 }
 
-/// The chip at an inertial read-out, its axes those of the body; `DELAY` samples late.
+/// The chip at an inertial read-out, in body axes; `DELAY` samples late.
 #[derive(Clone, Debug)]
 pub struct Mpu6000<P: Geometry, const DELAY: usize = 0> {
     name: &'static str,
     readout: Readout<P>,
     parameters: ImuParameters,
     sensors: Option<[Sensor<P::Real, DELAY>; 6]>,
-    /// \[s\] a step, and how many steps 125 µs are.
+    /// \[s\] the step, and the number of steps per 125 µs.
     step: P::Real,
     per_tick: P::Real,
-    /// Counts per unit at the least full scale.
+    /// Counts per unit at the smallest full scale.
     sensitive: [P::Real; 2],
     temperature: i16,
     link: Link,
@@ -98,7 +98,7 @@ pub struct Mpu6000<P: Geometry, const DELAY: usize = 0> {
     every: i32,
 }
 
-/// Where a transfer stands.
+/// The state of a transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     /// The next byte is a register's address.
@@ -108,7 +108,7 @@ enum Phase {
 }
 
 impl<P: Geometry<Real: Number>, const DELAY: usize> Mpu6000<P, DELAY> {
-    /// The chip, by the name that errors tell.
+    /// The chip, with a name for errors.
     #[must_use]
     pub fn new(name: &'static str, imu: Readout<P>, parameters: ImuParameters) -> Self {
         let zero = P::Real::ZERO;
@@ -158,8 +158,8 @@ impl<P: Geometry<Real: Number>, const DELAY: usize> Mpu6000<P, DELAY> {
         self.set(register.wrapping_add(1), low);
     }
 
-    /// Steps from sample to sample, by the registers: 8 kHz without the filter, 1 kHz with it,
-    /// divided; at least one.
+    /// Steps from sample to sample according to the registers: 8 kHz without the filter, 1 kHz with it, divided; at
+    /// least one.
     fn pace(&mut self) {
         let filter = self.get(CONFIG) & 7;
         let base = if filter == 0 || filter == 7 { 1 } else { 8 };
@@ -193,7 +193,7 @@ impl<P: Geometry<Real: Number>, const DELAY: usize> Mpu6000<P, DELAY> {
         value
     }
 
-    /// The next address of a burst; the FIFO's register stays.
+    /// The next address of a burst; the FIFO register repeats.
     fn advance(&mut self) {
         if self.pointer != FIFO_R_W {
             self.pointer = (self.pointer + 1) & 0x7f;
@@ -211,7 +211,7 @@ impl<P: Geometry<Real: Number>, const DELAY: usize> Mpu6000<P, DELAY> {
         byte
     }
 
-    /// Takes a sample into the registers.
+    /// Stores a sample in the registers.
     fn sample(&mut self, truth: [P::Real; 6]) {
         let Some(sensors) = &mut self.sensors else { return };
         let mut shown = truth;
@@ -254,7 +254,7 @@ impl<P: Geometry<Real: Number>, const DELAY: usize> Linked for Mpu6000<P, DELAY>
 
 impl<P: Geometry<Real: Number>, const DELAY: usize> I2cPart for Mpu6000<P, DELAY> {
     fn address(&self) -> u8 {
-        // Nobody has the general call's address.
+        // No part has the general call address.
         if self.get(USER_CTRL) & I2C_IF_DIS == 0 { self.parameters.address } else { 0xff }
     }
 
@@ -329,7 +329,7 @@ where
         self.temperature = ((temperature - 36.53) * 340.0).nearest() as i16;
         self.step = P::Real::from_f64(step);
         self.per_tick = P::Real::from_f64(125e-6 / step);
-        // 16384 per g; 131 per degree and second, which is 32768/250 rounded, as the data sheet has it.
+        // 16384 per g; 131 per degree/second, which is 32768/250 rounded, as in the data sheet.
         self.sensitive = [16_384.0 / STANDARD_GRAVITY, 131.0 * 180.0 / core::f64::consts::PI]
             .map(P::Real::from_f64);
         let sensor = |lane, errors| Sensor::new(name, lane, errors, step);
@@ -346,7 +346,7 @@ where
             None => return error(Problem::NoReadout),
             Some(Reading::Imu { .. }) => {}
             Some(other) => {
-                let wanted = "specific force and rate";
+                let wanted = "specific force and angular rate";
                 return error(Problem::Kind { wanted, found: kind(&other) });
             }
         }

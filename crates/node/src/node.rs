@@ -1,9 +1,8 @@
-//! A machine and its parts, stepped together; time that controllers wait passes in it.
+//! A machine and its parts, stepped together; waiting controllers advance its time.
 //!
-//! `(machine, parts, time) => machine, parts`. A step is: actuators drive, the machine steps, sensors
-//! see. Waited time becomes whole steps and a remainder that is carried, both in whole attoseconds
-//! (10⁻¹⁸ s): a step of a decimal fraction is exact; any other is off by half an attosecond at most,
-//! which is a nanosecond after 2·10⁹ steps.
+//! `(machine, parts, time) => machine, parts`. In a step, actuators drive, the machine steps, sensors sample. Waiting
+//! time is converted to whole steps and a carried remainder, both in whole attoseconds (10⁻¹⁸ s): a decimal step is
+//! exact; any other has an error of at most half an attosecond, which is a nanosecond after 2·10⁹ steps.
 
 use core::num::NonZeroU64;
 
@@ -23,11 +22,10 @@ pub struct Node<M, D> {
 }
 
 impl<M: Machine, D: Part<M>> Node<M, D> {
-    /// Wires parts to a machine; each sensor sees it as it stands.
+    /// Wires parts to a machine; each sensor samples its present state.
     ///
     /// # Errors
-    /// [`WiringError`] with the name of the first part that is wired to nothing; then all parts are
-    /// loose.
+    /// [`WiringError`] with the name of the first part that is wired wrongly; all parts are disconnected then.
     pub fn new(mut machine: M, mut parts: D) -> Result<Self, WiringError> {
         let refused = WiringError { name: "node", problem: Problem::Parameter("the step") };
         let clock = Clock::new(machine.step_size()).ok_or(refused)?;
@@ -46,11 +44,10 @@ impl<M: Machine, D: Part<M>> Node<M, D> {
         }
     }
 
-    /// One step: actuators drive, the machine steps, sensors see.
+    /// One step: actuators drive, the machine steps, sensors sample.
     ///
     /// # Errors
-    /// [`Fault`]; it latches: later calls change nothing and return the same one, and so does what
-    /// a driver calls.
+    /// [`Fault`]; it latches: later calls, including those of drivers, change nothing and return the same fault.
     #[inline]
     pub fn step(&mut self) -> Result<(), Fault> {
         if let Some(fault) = self.fault {
@@ -80,7 +77,7 @@ impl<M: Machine, D: Part<M>> Node<M, D> {
         self.parts.stop(fault);
     }
 
-    /// `steps` steps, or as many as succeed: what a timer's interrupt calls.
+    /// `steps` steps, or as many as succeed; called by a timer interrupt.
     ///
     /// # Errors
     /// [`Fault`], as [`Self::step`].
@@ -92,8 +89,8 @@ impl<M: Machine, D: Part<M>> Node<M, D> {
         Ok(())
     }
 
-    /// Lets time pass \[ns\]: as many whole steps as fit, the remainder is carried to the next wait.
-    /// The machine's time is behind the waited one by less than a step.
+    /// Advances time \[ns\] by as many whole steps as fit; the remainder is carried over to the next wait. The
+    /// machine's time lags the waited time by less than a step.
     ///
     /// # Errors
     /// [`Fault`], as [`Self::step`].
@@ -103,7 +100,7 @@ impl<M: Machine, D: Part<M>> Node<M, D> {
         self.advance(steps)
     }
 
-    /// Why it stands still, if it does.
+    /// Why it is stopped, if it is.
     pub fn fault(&self) -> Option<Fault> {
         self.fault
     }
@@ -128,7 +125,7 @@ impl<M: Machine, D: Part<M>> Node<M, D> {
         self.machine.time()
     }
 
-    /// Takes machine and parts apart; the parts may be wired again.
+    /// Separates machine and parts; the parts may be wired again.
     pub fn release(mut self) -> (M, D) {
         self.parts.stop(Fault::NotWired);
         (self.machine, self.parts)
@@ -138,25 +135,25 @@ impl<M: Machine, D: Part<M>> Node<M, D> {
 /// Waited time in steps.
 #[derive(Clone, Copy, Debug)]
 struct Clock {
-    /// \[as\] of a step.
+    /// \[as\] the step.
     step: NonZeroU64,
-    /// \[as\] waited beyond the last whole step; less than a step.
+    /// \[as\] the remainder; less than a step.
     carried: u64,
 }
 
 impl Clock {
-    /// `None` where the step is not of at least one attosecond and at most 10 s.
+    /// `None` unless the step is from one attosecond to 10 s.
     fn new(step_size: f64) -> Option<Self> {
         let step = step_size * 1e18;
         if step <= 1e19 {
-            // The conversion saturates: what is negative or no number becomes 0.
+            // The conversion saturates: negative numbers and NaN become 0.
             Some(Self { step: NonZeroU64::new((step + 0.5) as u64)?, carried: 0 })
         } else {
             None
         }
     }
 
-    /// The whole steps of what was carried and `nanoseconds` more.
+    /// The whole steps in the remainder plus `nanoseconds`.
     #[inline]
     fn pass(&mut self, nanoseconds: u32) -> u64 {
         // At most 10¹⁹ and 4.3·10¹⁸.

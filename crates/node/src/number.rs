@@ -1,26 +1,26 @@
-//! A plant's numbers as the whole numbers of registers.
+//! Conversion of a plant's numbers to integers for registers.
 //!
-//! `x => nearest whole number, x rounded down`. By additions alone: `core` offers no rounding, and
-//! that of libm would be a routine where the FPU needs two instructions.
+//! `x => nearest integer, x rounded down`. By additions only: `core` has no rounding, and libm's would be a call where
+//! the FPU needs two instructions.
 
 use dbd_kernel::Real;
 
 /// A number that a sensor can turn into counts.
 pub trait Number: Real {
-    /// The nearest whole number, ties to even; the ends of the range beyond them, 0 for NaN.
+    /// The nearest integer, ties to even; saturates, 0 for NaN.
     fn nearest(self) -> i32;
 
-    /// The nearest whole number as a number, ties to even.
+    /// The nearest integer as a number, ties to even.
     fn rounded(self) -> Self;
 
-    /// The largest whole number that is not above; the ends of the range beyond them, 0 for NaN.
+    /// The largest integer not above; saturates, 0 for NaN.
     #[inline(always)]
     fn whole_below(self) -> i32 {
         let whole = self.nearest();
         if Self::from_i32(whole) > self { whole.saturating_sub(1) } else { whole }
     }
 
-    /// The nearest of two bounds where this lies beyond them.
+    /// Clamps to two bounds.
     #[inline(always)]
     fn limited(self, least: Self, most: Self) -> Self {
         if self < least {
@@ -41,7 +41,7 @@ impl Number for f32 {
 
     #[inline(always)]
     fn rounded(self) -> Self {
-        // From 2^23 on every number is whole; below, the sum's last place is 1.
+        // From 2^23 on every number is an integer; below, the sum's last place is 1.
         const WHOLE: f32 = 8_388_608.0;
         if (0.0..WHOLE).contains(&self) {
             (self + WHOLE) - WHOLE
@@ -99,7 +99,7 @@ mod tests {
             let single = x as f32;
             assert_eq!((single.nearest(), single.whole_below()), (nearest, floor), "{x}");
         }
-        // The number below a half, which an addition of a half would round up.
+        // The number just below one half, which adding one half would round up.
         assert_eq!(0.499_999_97_f32.nearest(), 0);
         assert_eq!(0.499_999_999_999_999_94_f64.nearest(), 0);
     }

@@ -1,7 +1,7 @@
-//! What a node steps together with its machine: actuators before a step, sensors after it.
+//! Parts that a node steps with its machine: actuators before a step, sensors after it.
 //!
-//! `(machine, part) => machine, part`. Parts stand in a tuple and are served in its order. A part
-//! knows whether a node steps it and why it stands still; a driver's end asks for that first.
+//! `(machine, part) => machine, part`. Parts are in a tuple and served in its order. A part knows whether a node steps
+//! it and why it is stopped; a driver port checks that first.
 
 use core::cell::RefCell;
 
@@ -16,27 +16,27 @@ use crate::share::Shared;
 #[cfg(feature = "critical-section")]
 use crate::share::Slot;
 
-/// Something between a machine and a driver.
+/// A device between a machine and a driver.
 pub trait Part<M: Machine> {
-    /// Checks its wires and takes the machine's step; called once, by the node.
+    /// Checks its wiring and gets the machine's step; called once by the node.
     ///
     /// # Errors
-    /// [`WiringError`] with the name of what is wired to nothing.
+    /// [`WiringError`] with the name of the part that is wired wrongly.
     fn wire(&mut self, wires: &mut Wires<'_, M>) -> Result<(), WiringError>;
 
     /// Acts on the machine before a step.
     ///
     /// # Errors
-    /// [`Fault`]; the node stands still then.
+    /// [`Fault`]; the node stops then.
     fn drive(&mut self, machine: &mut M) -> Result<(), Fault>;
 
-    /// Looks at the machine after a step, and once at the start.
+    /// Samples the machine after a step, and once at the start.
     ///
     /// # Errors
-    /// [`Fault`]; the node stands still then.
+    /// [`Fault`]; the node stops then.
     fn sense(&mut self, machine: &M) -> Result<(), Fault>;
 
-    /// The node stands still, or is gone ([`Fault::NotWired`]): drivers shall hear why.
+    /// The node is stopped, or dropped ([`Fault::NotWired`]): drivers get the reason.
     fn stop(&mut self, fault: Fault);
 }
 
@@ -64,11 +64,11 @@ impl<'m, M: Machine> Wires<'m, M> {
         self.machine
     }
 
-    /// Takes an input, which is 0 from now on until the part drives it.
+    /// Claims an input, which is 0 until the part drives it.
     ///
     /// # Errors
-    /// [`Problem::Input`] where the machine has none or a table drives it, [`Problem::Shared`]
-    /// where another part does.
+    /// [`Problem::Input`] if the machine has no such input or a table drives it, [`Problem::Shared`] if another part
+    /// does.
     pub fn drive(&mut self, name: &'static str, input: InputIndex) -> Result<(), WiringError> {
         let error = |problem| WiringError { name, problem };
         let set = self.machine.set_input(input, M::Real::ZERO);
@@ -83,7 +83,7 @@ impl<'m, M: Machine> Wires<'m, M> {
         Ok(())
     }
 
-    /// Checks where a sensor is fixed.
+    /// Checks the read-out of a sensor.
     ///
     /// # Errors
     /// [`Problem::NoReadout`], [`Problem::Kind`].
@@ -92,7 +92,7 @@ impl<'m, M: Machine> Wires<'m, M> {
     }
 }
 
-/// Every how many steps a part samples.
+/// Sampling interval of a part in steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Every {
     steps: u32,
@@ -100,13 +100,13 @@ pub struct Every {
 }
 
 impl Every {
-    /// Every `steps` steps, beginning with the start; at least every step.
+    /// Every `steps` steps, starting at once; at least 1.
     #[must_use]
     pub fn new(steps: u32) -> Self {
         Self { steps: steps.max(1), left: 0 }
     }
 
-    /// Whether this is the time.
+    /// Whether a sample is due.
     #[inline]
     pub fn is_due(&mut self) -> bool {
         let due = self.left == 0;
@@ -115,10 +115,10 @@ impl Every {
     }
 }
 
-/// A quantity in a plant's numbers, from one in double precision; computed when wires are checked.
+/// Converts a parameter from double precision to the plant's; called when wiring is checked.
 ///
 /// # Errors
-/// [`Problem::Parameter`] where it is not within the bounds, both included.
+/// [`Problem::Parameter`] unless it is within the inclusive bounds.
 pub fn parameter<R: Number>(
     name: &'static str,
     which: &'static str,
@@ -133,7 +133,7 @@ pub fn parameter<R: Number>(
     }
 }
 
-/// Whether a part is stepped, and if not, why.
+/// Whether a part is stepped, else the reason.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Link {
     /// No node steps it.
@@ -141,15 +141,15 @@ pub enum Link {
     Loose,
     /// A node steps it.
     Wired,
-    /// The node stands still.
+    /// The node is stopped.
     Stopped(Fault),
 }
 
 impl Link {
-    /// Takes the wire.
+    /// Connects the part.
     ///
     /// # Errors
-    /// [`Problem::Twice`] where there is one.
+    /// [`Problem::Twice`] if it is already connected.
     pub fn wire(&mut self, name: &'static str) -> Result<(), WiringError> {
         if *self != Link::Loose {
             return Err(WiringError { name, problem: Problem::Twice });
@@ -158,15 +158,15 @@ impl Link {
         Ok(())
     }
 
-    /// The node stands still, or is gone.
+    /// The node is stopped or dropped.
     pub fn stop(&mut self, fault: Fault) {
         *self = if fault == Fault::NotWired { Link::Loose } else { Link::Stopped(fault) };
     }
 
-    /// What a driver's call begins with.
+    /// The check at the start of a driver's call.
     ///
     /// # Errors
-    /// [`Fault::NotWired`], or why the node stands still.
+    /// [`Fault::NotWired`], or why the node is stopped.
     #[inline]
     pub fn check(&self) -> Result<(), Fault> {
         match *self {
@@ -177,15 +177,15 @@ impl Link {
     }
 }
 
-/// A part that has a name and a link, as every end of a driver needs.
+/// A part with a name and a link, as every driver port requires.
 pub trait Linked {
-    /// The name that the program gave.
+    /// The name given by the program.
     fn name(&self) -> &'static str;
     /// Whether it is stepped.
     fn link(&self) -> Link;
 }
 
-/// Checks that a part is stepped, when an end of a driver is fixed to it.
+/// Checks that a part is stepped when a driver port is attached.
 ///
 /// # Errors
 /// [`Problem::NoNode`] with its name; [`Problem::Busy`].
@@ -216,7 +216,7 @@ macro_rules! in_a_cell {
                 self.with(|part| part.sense(machine))?
             }
             fn stop(&mut self, fault: Fault) {
-                // Who is at it now will hear of it at the next call.
+                // The present user is notified at the next call.
                 let _ = self.with(|part| part.stop(fault));
             }
         }

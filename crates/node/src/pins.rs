@@ -1,7 +1,7 @@
 //! Pins: a quadrature encoder's A, B and index, and switches.
 //!
-//! `part => level`. A and B stand for the lowest two bits of the count: 00, 10, 11, 01 as it rises. A
-//! driver that polls them must do so more often than counts change, or it misses some, as on a board.
+//! `part => level`. A and B encode the lowest two bits of the count: 00, 10, 11, 01 as it rises. A driver that polls
+//! them must do so more often than the count changes, or it misses counts, as on a board.
 
 use embedded_hal::digital::{ErrorType, InputPin};
 
@@ -11,14 +11,14 @@ use crate::fault::{Fault, WiringError};
 use crate::part::{Linked as _, fix};
 use crate::share::Shared;
 
-/// Which of an encoder's signals a pin carries.
+/// The signal of an encoder on a pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Signal {
     /// Leads B where the count rises.
     A,
     /// A quarter of a period behind.
     B,
-    /// High for one count of each turn, that of 0.
+    /// High for one count per revolution, at 0.
     Index,
 }
 
@@ -30,10 +30,10 @@ pub struct EncoderPin<C> {
 }
 
 impl<C: Shared<Part: Counting>> EncoderPin<C> {
-    /// A pin of an encoder that a node steps.
+    /// A pin of an encoder.
     ///
     /// # Errors
-    /// [`WiringError`] where none does.
+    /// [`WiringError`] if no node steps it.
     pub fn new(cell: C, signal: Signal) -> Result<Self, WiringError> {
         fix(&cell)?;
         Ok(Self { cell, signal })
@@ -83,10 +83,10 @@ pub struct SwitchPin<C> {
 }
 
 impl<C: Shared<Part: Switch>> SwitchPin<C> {
-    /// A pin of a switch that a node steps.
+    /// A pin of a switch.
     ///
     /// # Errors
-    /// [`WiringError`] where none does.
+    /// [`WiringError`] if no node steps it.
     pub fn new(cell: C, active: Active) -> Result<Self, WiringError> {
         fix(&cell)?;
         Ok(Self { cell, active })

@@ -1,7 +1,7 @@
-//! Where a sensor is fixed: a read-out by its name, and which number of it the sensor sees.
+//! Attachment of a sensor: a read-out by name, and which of its numbers the sensor reads.
 //!
-//! `(machine, read-out, axis) => number`. What it names is looked for when the wires are checked,
-//! so that a wrong one ends the start and not a run.
+//! `(machine, read-out, axis) => number`. The read-out is checked at wiring, so that a wrong one fails at the start and
+//! not during a run.
 
 use dbd_kernel::Vec3;
 use dbd_kernel::geometry::Geometry;
@@ -25,19 +25,18 @@ impl<P: Geometry> Probe<P> {
         Self { name, readout, axis: None }
     }
 
-    /// A read-out that is a vector, along an axis of the world: a position \[m\], a velocity
-    /// \[m/s\] or a force \[N\]. The axis is taken as it is: of unit length it gives the
-    /// component, of another one that times its length.
+    /// A vector read-out along a world axis: a position \[m\], a velocity \[m/s\] or a force \[N\]. The axis is not
+    /// normalised: the component is multiplied by its length.
     pub fn along(name: &'static str, readout: Readout<P>, axis: [f64; 3]) -> Self {
         Self { name, readout, axis: Some(Vec3::from_f64(axis)) }
     }
 
-    /// The name that the program gave.
+    /// The name given by the program.
     pub const fn name(&self) -> &'static str {
         self.name
     }
 
-    /// Checks that the machine has it, and that it is of the right kind.
+    /// Checks that the machine has it and that its kind is right.
     ///
     /// # Errors
     /// [`Problem::NoReadout`], [`Problem::Kind`], with its name.
@@ -56,10 +55,10 @@ impl<P: Geometry> Probe<P> {
         }
     }
 
-    /// What it sees now.
+    /// The present value.
     ///
     /// # Errors
-    /// [`Fault::Readout`] where it is undefined.
+    /// [`Fault::Readout`] if it is undefined.
     #[inline]
     pub fn see<M: Machine<Precision = P, Real = P::Real>>(
         &self,
@@ -73,11 +72,11 @@ impl<P: Geometry> Probe<P> {
     }
 }
 
-/// A reading's kind in words.
+/// The name of a reading's kind.
 pub(crate) fn kind<R: Real>(reading: &Reading<R>) -> &'static str {
     match reading {
         Reading::Scalar(_) => "a number",
         Reading::Vector(_) => "a vector",
-        Reading::Imu { .. } => "specific force and rate",
+        Reading::Imu { .. } => "specific force and angular rate",
     }
 }

@@ -1,7 +1,7 @@
-//! Pulse-width modulation and the pins of a bridge: what a driver sets, a motor follows.
+//! Pulse-width modulation and the pins of a bridge.
 //!
-//! `(duty, pins) => motor`. Two ways as bridges have them: a duty and a direction, or one duty for each
-//! direction, whose difference counts. What is set acts from the machine's next step on.
+//! `(duty, pins) => motor`. Two modes, as on real bridges: a duty and a direction, or one duty for each direction,
+//! whose difference applies. Settings take effect from the machine's next step.
 
 use embedded_hal::digital::{ErrorType as PinErrorType, OutputPin, StatefulOutputPin};
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
@@ -20,10 +20,10 @@ pub struct DutyEnd<C> {
 }
 
 impl<C: Shared<Part: Bridge>> DutyEnd<C> {
-    /// A channel of a motor that a node steps; with a direction's pin, the one forwards.
+    /// A channel of a motor; with a direction pin, the forward one.
     ///
     /// # Errors
-    /// [`WiringError`] where none does.
+    /// [`WiringError`] if no node steps it.
     pub fn new(cell: C, channel: Channel) -> Result<Self, WiringError> {
         fix(&cell)?;
         let busy = WiringError { name: "a motor", problem: Problem::Busy };
@@ -54,7 +54,7 @@ impl<C: Shared<Part: Bridge>> SetDutyCycle for DutyEnd<C> {
     }
 }
 
-/// What a pin of a bridge sets.
+/// The setting of a pin of a bridge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Line {
     Direction,
@@ -69,19 +69,19 @@ pub struct BridgePin<C> {
 }
 
 impl<C: Shared<Part: Bridge>> BridgePin<C> {
-    /// The direction of a motor that a node steps: low forwards, high backwards; low at the start.
+    /// The direction of a motor: low forwards, high backwards; low at the start.
     ///
     /// # Errors
-    /// [`WiringError`] where none does.
+    /// [`WiringError`] if no node steps it.
     pub fn direction(cell: C) -> Result<Self, WiringError> {
         fix(&cell)?;
         Ok(Self { cell, line: Line::Direction })
     }
 
-    /// The enable pin of a bridge: low lets no current through; high at the start, as without one.
+    /// The enable pin of a bridge: low blocks the current; high at the start, as without one.
     ///
     /// # Errors
-    /// [`WiringError`] where no node steps its motor.
+    /// [`WiringError`] if no node steps its motor.
     pub fn enable(cell: C) -> Result<Self, WiringError> {
         fix(&cell)?;
         Ok(Self { cell, line: Line::Enable })

@@ -1,10 +1,10 @@
-//! Random numbers of sensors: a stream of their own for each, the same bits on every machine.
+//! Random numbers for sensors: a separate stream for each, the same bits on every machine.
 //!
-//! `(seed, name, lane) => stream of normal numbers`. The generator is xoshiro128++ (Blackman & Vigna,
-//! ACM Trans. Math. Softw. 47, 2021), whose 32-bit words suit a Cortex-M. Its state comes by
-//! SplitMix64 from a hash of seed, name and lane: a further sensor changes the bits of no other.
-//! A normal number is the sum of twelve uniform ones less its mean (Irwin-Hall), of 16 bits each:
-//! deviation √(1 − 2⁻³²), mean 0, never beyond ±6, excess kurtosis −0.1; exact in both precisions.
+//! `(seed, name, lane) => stream of normal numbers`. The generator is xoshiro128++ (Blackman & Vigna, ACM Trans. Math.
+//! Softw. 47, 2021), whose 32-bit words suit a Cortex-M. Its state is derived by SplitMix64 from a hash of seed, name
+//! and lane, so that adding a sensor does not change the others. A normal number is the sum of twelve 16-bit uniform
+//! ones minus its mean (Irwin-Hall): deviation √(1 − 2⁻³²), mean 0, within ±6, excess kurtosis −0.1; exact in both
+//! precisions.
 
 use dbd_kernel::Real;
 use dbd_kernel::words::{Fnv1a, Word, WordVisitor};
@@ -16,13 +16,12 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 pub struct Stream(Xoshiro128PlusPlus);
 
 impl Stream {
-    /// The stream of what is named, `lane` telling apart what one sensor needs: axes, noise and
-    /// walk.
+    /// The stream of a name; `lane` distinguishes the streams of one sensor: axes, noise and walk.
     #[must_use]
     pub fn new(seed: u64, name: &str, lane: u32) -> Self {
         let mut hash = Fnv1a::new();
         hash.word(Word::U64(seed));
-        // By eight bytes: the hash takes words. The length tells apart what is filled up.
+        // Eight bytes at a time, because the hash works on words. The length distinguishes padded names.
         for bytes in name.as_bytes().chunks(8) {
             let word = bytes.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte));
             hash.word(Word::U64(word));

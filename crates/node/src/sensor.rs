@@ -1,15 +1,14 @@
-//! What a sensor makes of the truth: bias, walk, noise, range, resolution and delay.
+//! The error model of a sensor: bias, walk, noise, range, resolution and delay.
 //!
-//! `truth => (((truth + bias + walk) + noise) limited, rounded to a multiple of the resolution) of
-//! DELAY samples ago`. In the plant's own numbers. Each step of it is left out where its parameter is 0.
-//! Terms as in IEEE Std 952-1997, annex C: white noise by its deviation per sample, random walk
-//! by its deviation after one second.
+//! `value => (((value + bias + walk) + noise) limited, rounded to a multiple of the resolution) of DELAY samples ago`,
+//! in the plant's precision. Each term is skipped if its parameter is 0. Terms as in IEEE Std 952-1997, annex C: white
+//! noise by its deviation per sample, random walk by its deviation after one second.
 
 use crate::fault::{Problem, WiringError};
 use crate::number::Number;
 use crate::random::Stream;
 
-/// What is wrong with a sensor, in its own unit. The default is a sensor without error.
+/// Errors of a sensor, in its unit. The default is a sensor without errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
     /// \[unit\] standard deviation of the white noise of a sample, ≥ 0.
@@ -18,16 +17,16 @@ pub struct Errors {
     pub bias: f64,
     /// \[unit/√s\] standard deviation of the bias's random walk after one second, ≥ 0.
     pub walk: f64,
-    /// \[unit\] the least difference that is told, ≥ 0; 0 tells every one.
+    /// \[unit\] resolution, ≥ 0; 0 for none.
     pub resolution: f64,
-    /// \[unit\] least and most that is shown.
+    /// \[unit\] smallest and largest output.
     pub range: [f64; 2],
-    /// Of the random numbers; sensors of one seed and different names have different ones.
+    /// Seed of the random numbers; sensors with one seed and different names have different ones.
     pub seed: u64,
 }
 
 impl Errors {
-    /// A sensor that shows the truth.
+    /// A sensor without errors.
     pub const NONE: Self = Self {
         noise: 0.0,
         bias: 0.0,
@@ -65,12 +64,11 @@ pub struct Sensor<R, const DELAY: usize = 0> {
 }
 
 impl<R: Number, const DELAY: usize> Sensor<R, DELAY> {
-    /// A sensor of a name, whose random numbers are those of seed, name and `lane`, sampled every
-    /// `period` \[s\].
+    /// A sensor sampled every `period` \[s\], with random numbers determined by seed, name and `lane`.
     ///
     /// # Errors
-    /// [`Problem::Parameter`] where a deviation, the resolution or the period is negative or not
-    /// finite, the bias is not finite or the range is empty.
+    /// [`Problem::Parameter`] if a deviation, the resolution or the period is negative or not finite, the bias is not
+    /// finite or the range is empty.
     pub fn new(
         name: &'static str,
         lane: u16,
@@ -109,14 +107,13 @@ impl<R: Number, const DELAY: usize> Sensor<R, DELAY> {
         })
     }
 
-    /// Goes on with another sample period \[s\], which is not negative.
+    /// Continues with another sample period \[s\], which is not negative.
     #[inline]
     pub fn set_period(&mut self, period: R) {
         self.walk = self.per_root * period.sqrt();
     }
 
-    /// The sample that is shown for the present truth. Before `DELAY` samples have been taken it is
-    /// the first one.
+    /// The output for the present exact value. Before `DELAY` samples have been taken it is the first one.
     #[inline]
     pub fn sample(&mut self, truth: R) -> R {
         let shown = self.show(truth);
@@ -152,17 +149,17 @@ impl<R: Number, const DELAY: usize> Sensor<R, DELAY> {
         value
     }
 
-    /// What is wrong with it.
+    /// Its errors.
     pub fn errors(&self) -> &Errors {
         &self.errors
     }
 
-    /// \[unit\] the present bias, the walk included.
+    /// \[unit\] the present bias, including the walk.
     pub fn bias(&self) -> R {
         self.bias + self.wandered
     }
 
-    /// Begins again: the first random numbers, no walk, nothing delayed.
+    /// Resets the random numbers, the walk and the delay.
     pub fn reset(&mut self) {
         self.noises = Stream::new(self.errors.seed, self.name, lanes(self.lane)[0]);
         self.walks = Stream::new(self.errors.seed, self.name, lanes(self.lane)[1]);

@@ -1,21 +1,21 @@
-//! How a driver's end and a node reach the same part: by a cell, or by a cell behind a critical
-//! section where an interrupt is one of the two.
+//! Sharing of a part between a driver port and a node: by a cell, or by a cell behind a critical section if one of them
+//! is in an interrupt.
 //!
-//! `(cell, what to do) => done, or busy`. Nothing is allocated, nothing waits, nothing panics.
+//! `(cell, function) => result, or busy`. Does not allocate, wait or panic.
 
 use core::cell::RefCell;
 
 use crate::fault::Fault;
 
-/// A place where a part lies, reached from several others.
+/// A shared cell of a part.
 pub trait Shared {
-    /// What lies there.
+    /// The contents.
     type Part;
 
-    /// Does something with the part.
+    /// Calls a function with the part.
     ///
     /// # Errors
-    /// [`Fault::Busy`] where somebody else is at it, or nothing lies there yet.
+    /// [`Fault::Busy`] if it is in use or empty.
     fn with<A>(&self, action: impl FnOnce(&mut Self::Part) -> A) -> Result<A, Fault>;
 }
 
@@ -50,24 +50,23 @@ impl<T> Shared for critical_section::Mutex<RefCell<T>> {
     }
 }
 
-/// A place in a `static` that a program fills when it starts: for parts and nodes that an interrupt
-/// reaches, too.
+/// A slot in a `static` that a program fills at the start: for parts and nodes that an interrupt also uses.
 #[cfg(feature = "critical-section")]
 #[derive(Debug)]
 pub struct Slot<T>(critical_section::Mutex<RefCell<Option<T>>>);
 
 #[cfg(feature = "critical-section")]
 impl<T> Slot<T> {
-    /// An empty one.
+    /// An empty slot.
     #[must_use]
     pub const fn new() -> Self {
         Self(critical_section::Mutex::new(RefCell::new(None)))
     }
 
-    /// Puts something there and gives back what was there.
+    /// Replaces the contents and returns the previous ones.
     ///
     /// # Errors
-    /// [`Fault::Busy`] where somebody is at it; `part` is dropped then.
+    /// [`Fault::Busy`] if it is in use; `part` is dropped then.
     pub fn put(&self, part: T) -> Result<Option<T>, Fault> {
         critical_section::with(|section| self.0.borrow(section).with(|slot| slot.replace(part)))
     }

@@ -1,9 +1,8 @@
-//! SPI: a part behind chip select, for a driver that has a device and for one that has a bus.
+//! SPI: a part behind chip select, for drivers of a device and of a bus.
 //!
-//! `bytes of the driver => bytes of the part`. A transaction of `SpiDevice` is one chip select. A driver
-//! that has `SpiBus` and a pin gets [`SpiWires`] and [`ChipSelect`]; on a bus without a selected part
-//! all ones are read. Words of 16 bits go with the high byte first. Transfers take no time, and a
-//! transaction's delays let none pass.
+//! `bytes of the driver => bytes of the part`. A transaction of `SpiDevice` is one chip select. A driver with `SpiBus`
+//! and a pin uses [`SpiWires`] and [`ChipSelect`]; without a selected part the bus reads all ones. Words of 16 bits are
+//! sent high byte first. Transfers take no time, and delays within a transaction do not advance time.
 
 use embedded_hal::digital::{ErrorType as PinErrorType, OutputPin};
 use embedded_hal::spi::{ErrorType, Operation, SpiBus, SpiDevice};
@@ -24,9 +23,9 @@ pub trait SpiPart: Linked {
     fn is_selected(&self) -> bool;
 }
 
-/// What is sent where the driver only reads.
+/// The byte sent while the driver only reads.
 const IDLE: u8 = 0;
-/// What is read where nothing answers.
+/// The byte read if no part answers.
 const NOTHING: u8 = 0xff;
 
 /// A part as an `SpiDevice` of words of 8 or 16 bits.
@@ -34,10 +33,10 @@ const NOTHING: u8 = 0xff;
 pub struct SpiEnd<C>(C);
 
 impl<C: Shared<Part: SpiPart>> SpiEnd<C> {
-    /// The end of a part that a node steps.
+    /// The port of a part.
     ///
     /// # Errors
-    /// [`WiringError`] where none does.
+    /// [`WiringError`] if no node steps it.
     pub fn new(cell: C) -> Result<Self, WiringError> {
         fix(&cell)?;
         Ok(Self(cell))
@@ -50,7 +49,7 @@ impl<C> ErrorType for SpiEnd<C> {
 
 /// A word as bytes on the wire.
 trait WireWord: Copy + Default + 'static {
-    /// Sends it and gives what comes back.
+    /// Sends it and returns the answer.
     fn exchange(self, wire: impl FnMut(u8) -> u8) -> Self;
     /// Nothing to send.
     const IDLE: Self;
@@ -73,7 +72,7 @@ impl WireWord for u16 {
     }
 }
 
-/// Reads as many words as there are.
+/// Fills a buffer with read words.
 fn read<W: WireWord>(words: &mut [W], mut wire: impl FnMut(u8) -> u8) {
     for word in words {
         *word = W::IDLE.exchange(&mut wire);
@@ -86,7 +85,7 @@ fn write<W: WireWord>(words: &[W], mut wire: impl FnMut(u8) -> u8) {
     }
 }
 
-/// As long as the longer of both.
+/// As long as the longer of the two.
 fn transfer<W: WireWord>(read: &mut [W], write: &[W], mut wire: impl FnMut(u8) -> u8) {
     for i in 0..read.len().max(write.len()) {
         let sent = write.get(i).copied().unwrap_or(W::IDLE);
@@ -134,12 +133,12 @@ macro_rules! device {
 device!(u8);
 device!(u16);
 
-/// What is joined to the wires of a bus: a part in its cell, or several in a tuple.
+/// Devices on a bus: a part in its cell, or several in a tuple.
 pub trait OnSpi {
-    /// A byte to and from the part that is selected, if one is.
+    /// Exchanges a byte with the selected part, if any.
     ///
     /// # Errors
-    /// [`Fault`] where a part is in use elsewhere or stands still.
+    /// [`Fault`] if a part is in use elsewhere or stopped.
     fn exchange(&self, byte: u8) -> Result<Option<u8>, Fault>;
 }
 
@@ -157,7 +156,7 @@ impl<C: Shared<Part: SpiPart>> OnSpi for C {
     }
 }
 
-/// Two or more things on the same wires; nest tuples for more than four.
+/// Two or more devices on the same bus; nest tuples for more than four.
 macro_rules! on_spi {
     ($($thing:ident)*) => {
         #[allow(non_snake_case)]
@@ -176,7 +175,7 @@ on_spi!(A B);
 on_spi!(A B C);
 on_spi!(A B C D);
 
-/// The wires of a bus as an `SpiBus` of bytes.
+/// The bus as an `SpiBus` of bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct SpiWires<T>(T);
 
@@ -191,7 +190,7 @@ impl<T: OnSpi> SpiWires<T> {
     }
 }
 
-/// Bytes on the wires, until a part refuses.
+/// Exchanges bytes until a part refuses.
 struct Exchange<'w, T> {
     parts: &'w T,
     fault: Option<Fault>,
@@ -243,15 +242,15 @@ impl<T: OnSpi> SpiBus for SpiWires<T> {
     }
 }
 
-/// The chip select of a part, low is selected.
+/// The chip select of a part, active low.
 #[derive(Clone, Copy, Debug)]
 pub struct ChipSelect<C>(C);
 
 impl<C: Shared<Part: SpiPart>> ChipSelect<C> {
-    /// The pin of a part that a node steps.
+    /// The pin of a part.
     ///
     /// # Errors
-    /// [`WiringError`] where none does.
+    /// [`WiringError`] if no node steps it.
     pub fn new(cell: C) -> Result<Self, WiringError> {
         fix(&cell)?;
         Ok(Self(cell))

@@ -1,8 +1,7 @@
-//! What a plant of any method can do.
+//! Interface of a plant, independent of its method.
 //!
-//! `(inputs, steps) => state, energy, read-outs`. What goes in and comes out is in double precision:
-//! what goes in is rounded once to the precision that steps, what comes out is the stored words,
-//! widened exactly.
+//! `(inputs, steps) => state, energy, sensors`. All values are in double precision: inputs are rounded once to the
+//! plant's precision, outputs are the stored words, widened exactly.
 
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::{InputError, StateError};
@@ -23,7 +22,7 @@ pub trait AnyPlant: Send {
     /// One step.
     fn step(&mut self) -> Status;
 
-    /// `n` steps with held inputs, or as many as succeed.
+    /// `n` steps with held inputs; stops at a failure.
     fn advance(&mut self, n: u64) -> Status;
 
     /// Sets an input and its rate until they are set again: a force \[N\], a torque \[N·m\], or the
@@ -35,41 +34,40 @@ pub trait AnyPlant: Send {
     /// finite in the precision; nothing is changed then.
     fn set(&mut self, input: InputIndex, value: f64, rate: f64) -> Result<(), InputError>;
 
-    /// What a read-out shows now, SI units; `None` where it names what the model lacks or the twist
-    /// is undefined. Computed in the precision that steps.
+    /// The present value of a sensor, SI units; `None` if the model lacks its parts or the torsion angle is undefined.
+    /// Computed in the plant's precision.
     fn read(&self, readout: &Readout<F64>) -> Option<Reading<f64>>;
 
     /// The state of all bodies: positions \[m\] and velocities \[m/s\] in the world, orientations body
-    /// → world, angular velocities \[rad/s\] in body axes; with turn counts, step counter and signals.
+    /// → world, angular velocities \[rad/s\] in body axes; with revolution counts, step counter and signals.
     fn state(&self) -> State<SceneModel<F64>>;
 
-    /// The states of all bodies, as [`AnyPlant::state`] has them, in place of what `bodies` held.
+    /// Replaces the contents of `bodies` by the states of all bodies, see [`AnyPlant::state`].
     fn bodies(&self, bodies: &mut Vec<BodyState<F64>>);
 
-    /// Values \[N, N·m or m\] and rates of all inputs at the end of the coming step, before what jumps there.
+    /// Values \[N, N·m or m\] and rates of all inputs at the end of the coming step, before any jump at that time.
     fn signals_at_end(&self) -> Vec<Signal<f64>>;
 
     /// \[J\] the energies of the present state by kind.
     fn energy(&self) -> Energy<f64>;
 
-    /// Goes back to t = 0; a failure is forgotten, inputs have their first values.
+    /// Resets to t = 0 with the initial inputs; clears a failure.
     fn reset(&mut self);
 
-    /// Goes on from a state, its step counter and signals included, each number rounded once; a
-    /// failure is forgotten.
+    /// Continues from a state, including step counter and signals, each number rounded once; clears a failure.
     ///
     /// # Errors
     /// [`StateError`] where it is not of this model, not finite, or an orientation is not of unit
     /// length; nothing is changed then.
     fn set_state(&mut self, state: &State<SceneModel<F64>>) -> Result<(), StateError>;
 
-    /// The state as bytes, which a plant of the same model, method and step takes up on any machine.
+    /// The state as bytes, which a plant of the same model, method and step can restore on any machine.
     ///
     /// # Errors
     /// [`SnapshotError::Failed`] where the plant has failed.
     fn snapshot(&self) -> Result<Vec<u8>, SnapshotError>;
 
-    /// Goes on from a snapshot, bit for bit; a failure is forgotten.
+    /// Continues from a snapshot, bit for bit; clears a failure.
     ///
     /// # Errors
     /// [`SnapshotError`] where the bytes are damaged or of another model, method or step; nothing is
@@ -94,13 +92,13 @@ pub trait AnyPlant: Send {
     /// \[s\] the step as given.
     fn step_size(&self) -> f64;
 
-    /// How many digits the numbers of its state have.
+    /// Number format of its state.
     fn numerals(&self) -> Numerals;
 
     /// The method.
     fn method(&self) -> &Method;
 
-    /// The model that steps, its constants as rounded to the precision, widened exactly; in the world's
-    /// axes, in which states are, also where the scene is planar.
+    /// The model of the plant, with constants rounded to the precision and widened exactly; in world axes, like the
+    /// states, also if the scene is planar.
     fn model(&self) -> &SceneModel<F64>;
 }

@@ -1,11 +1,10 @@
-//! How much energy a run can have.
+//! Upper bound of the energy of a run.
 //!
-//! `(model, states as they come) => mechanical energy | what came from nowhere`. There is what the
-//! start holds, what gravity and springs released, what loads, inputs and moved ground can have
-//! given, and what rounding does: coordinates and arms are rounded in the precision that runs, a
-//! spring makes a force of that, and a body that nothing holds gathers speed from it. Each is a bound
-//! from above, taken from the states that are seen; what exceeds all of them a hundredfold is the
-//! growth of an unstable step, which is exponential and meets any of them.
+//! `(model, sampled states) => mechanical energy | unexplained energy`. The bound sums the initial energy, the energy
+//! released by gravity and springs, the work of loads, inputs and moved ground, and the effect of rounding: rounding
+//! errors of coordinates and lever arms cause spring forces, which accelerate free bodies. Each term is an upper bound
+//! computed from the sampled states. An energy a hundred times above their sum indicates the exponential growth of an
+//! unstable step.
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::each_extension;
@@ -13,36 +12,36 @@ use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{BodyIndex, Energy, F64, Revolute, State, Vec3};
 use dbd_scene::SceneModel;
 
-/// Energy that came from nowhere is a divergence once it exceeds this many times the energies
-/// of the run. Far beyond any error of a run that is merely coarse.
+/// Unexplained energy is a divergence once it exceeds this many times the energies of the run, far above the error of a
+/// coarse run.
 const GROWN: f64 = 100.0;
 
-/// Extension of all springs, as a share of the scene's size, whose energy counts as an energy of
-/// the run: far above what rounding does to springs in any precision.
+/// Extension of all springs, as a fraction of the scene's size, whose energy counts as an energy of the run: far above
+/// the rounding errors of any precision.
 const SHARE: f64 = 1e-4;
 
-/// Roundings of a coordinate on its way to a spring's force, all to the same side.
+/// Number of roundings between a coordinate and a spring's force, all in the same direction.
 const ROUNDINGS: f64 = 16.0;
 
 type States = State<SceneModel<F64>>;
 
-/// What the energy of a run is held against.
+/// Bounds of the energy of a run.
 pub(crate) struct Budget {
-    /// \[J\] energies at t = 0, and of springs stretched by [`SHARE`].
+    /// \[J\] energies at t = 0, and of springs extended by [`SHARE`].
     held: f64,
     /// \[J\] potential and mechanical energy at t = 0.
     initial: [f64; 2],
-    /// \[J\] the most potential energy that was released so far.
+    /// \[J\] the largest potential energy released so far.
     released: f64,
-    /// \[J\] what loads and inputs can have given so far.
+    /// \[J\] upper bound of the work of loads and inputs so far.
     supplied: f64,
     /// The relative rounding of a coordinate.
     unit: f64,
     /// Those of each group that stretch with the ground.
     reaches: Vec<Reach>,
-    /// \[m\] how far from the origin each body was so far.
+    /// \[m\] largest distance of each body from the origin so far.
     distances: Vec<f64>,
-    /// What was seen last.
+    /// Last sampled state.
     before: Seen,
 }
 
@@ -61,7 +60,7 @@ struct Reach {
     damping: f64,
 }
 
-/// What a state shows of speeds and signals.
+/// Speeds and signals of a state.
 #[derive(Clone, Default)]
 struct Seen {
     time: f64,
@@ -101,7 +100,7 @@ impl Budget {
         Self { held, initial, released: 0.0, supplied: 0.0, unit, reaches, distances, before }
     }
 
-    /// The energy that came from nowhere in a state at `time` \[s\], where it is beyond all measure.
+    /// The unexplained energy of a state at `time` \[s\], if it exceeds the bound.
     pub(crate) fn beyond(
         &mut self,
         model: &SceneModel<F64>,
@@ -122,8 +121,8 @@ impl Budget {
         (growth > measure && growth > measure + self.rounding(model, time)).then_some(growth)
     }
 
-    /// \[J\] what rounding can have done until `time` \[s\]: to springs at the bodies' present
-    /// distances, and to the speeds of bodies that it pushes to one side all the time.
+    /// \[J\] upper bound of the energy from rounding until `time` \[s\]: in springs at the bodies' present distances,
+    /// and in bodies that it accelerates in one direction all the time.
     fn rounding(&self, model: &SceneModel<F64>, time: f64) -> f64 {
         let mut pushed = vec![[0.0; 2]; model.bodies.len()];
         let mut stretched = 0.0;
@@ -153,11 +152,11 @@ impl Budget {
         GROWN * stretched + gathered.sum::<f64>()
     }
 
-    /// \[J\] what loads and inputs can have given from what was seen last until now.
+    /// \[J\] upper bound of the work of loads and inputs since the last sampled state.
     fn supply(&self, model: &SceneModel<F64>, now: &Seen) -> f64 {
         let (from, until) = (self.before.time, now.time);
         let span = (until - from).max(0.0);
-        // Of a body that speeds up or slows down between two looks the higher speed.
+        // The higher of the two speeds of a body between two samples.
         let speed = |row: Option<usize>| {
             let of = |seen: &Seen| seen.speeds.get(row?).copied();
             let [one, other] = [&self.before, now].map(|seen| of(seen).unwrap_or_default());
@@ -167,7 +166,7 @@ impl Budget {
         for load in &model.loads {
             let acts = load.until.min(until) - load.from.max(from);
             let [linear, angular] = speed(body(load.body));
-            // A window is one of whole steps: at its ends a little more or less.
+            // Windows consist of whole steps and may differ slightly at their ends.
             if acts > -span {
                 work += (length(load.force) * linear + length(load.torque) * angular) * span;
             }
@@ -182,7 +181,7 @@ impl Budget {
                 ..knots.partition_point(|knot| knot.time <= until);
             let passed = knots.get(passed).unwrap_or_default();
             let values = passed.iter().map(|knot| knot.value);
-            // Of a source the most that it ever says.
+            // The largest value of a source.
             let mut sources = model.sources.iter().filter(|s| usize::from(s.input.0) == row);
             let source = sources.next().map_or([0.0; 2], |source| source.most(&model.knots));
             let most =
@@ -204,7 +203,7 @@ impl Budget {
                         most * speeds.sum::<f64>() * span
                     })
                 }
-                // What a drive gives is bounded by nothing that is seen here.
+                // The energy of a drive has no bound that is known here.
                 InputKind::Signal => f64::INFINITY,
                 InputKind::Anchor { .. } => {
                     let rates = passed.iter().map(|knot| knot.slope);
@@ -222,7 +221,7 @@ impl Budget {
         work
     }
 
-    /// \[J\] what ground that input `row` moves by `way` \[m\] within `span` \[s\] can give.
+    /// \[J\] upper bound of the work of ground that input `row` moves by `way` \[m\] within `span` \[s\].
     fn moved_ground(
         &self,
         model: &SceneModel<F64>,
@@ -353,7 +352,7 @@ mod tests {
             budget.beyond(&scene.model, &start, &energy, 0.0)
         };
         assert_eq!(beyond(1000.0, -990.0), None);
-        // What was released once may come back, and an error of that size is only an error.
+        // Released energy may return, and an error of that size is tolerated.
         assert_eq!(beyond(1000.0, 10.0), None);
         assert_eq!(beyond(2e5, 10.0), Some(2e5));
     }
@@ -368,7 +367,7 @@ mod tests {
             );
             budget(&scene(&line)).held
         };
-        // At rest what a stretch of the scene's share holds; stretched by 0.1 m 50 J more.
+        // At rest the energy of an extension by the fraction of the scene's size; extended by 0.1 m, 50 J more.
         let least = 0.5 * 1e4 * SHARE * SHARE;
         assert!((held(0.0) - least).abs() < 1e-12);
         assert!((held(0.1) - 50.0 - least * 1.1 * 1.1).abs() < 1e-9);

@@ -1,10 +1,10 @@
-//! Numbers as people read them.
+//! Rounded numbers for display.
 //!
-//! `number, digits => text`. Nothing that is read back: what must be exact is displayed whole.
+//! `number, digits => text`. The texts are not read back; exact values are displayed with all digits.
 
 use crate::time::{display, rounded};
 
-/// A number with so many significant digits, without trailing zeros.
+/// A number with the given count of significant digits, without trailing zeros.
 #[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {

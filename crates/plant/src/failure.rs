@@ -1,10 +1,10 @@
-//! A run that failed: where, and which step works instead.
+//! Failed runs: position, cause, and a step that works.
 //!
-//! `(trouble, scene, plan) => sentence`, the cause before the symptom where it is known: the step is
-//! the cause where it is beyond what the scheme bears at t = 0, or where a shorter one works. A step is only
-//! named after a run with it over the same duration has come to its end. The candidates are the advised step,
-//! shortened to a round one that fits, and its halves, all shorter than the one that failed. Together they take
-//! no more evaluations than the failed run, or `LEAST_BUDGET` where that is more.
+//! `(failure, scene, plan) => sentence`, the cause before the symptom if it is known: the step is the cause if it
+//! exceeds the scheme's stability limit at t = 0, or if a shorter one works. A step is only named after a run with it
+//! over the same duration has completed. The candidates are the advised step, shortened to a round one that fits, and
+//! its halves, all shorter than the failed one. Together they cost no more evaluations than the failed run, or
+//! `LEAST_BUDGET` if that is more.
 
 use std::fmt;
 
@@ -21,45 +21,44 @@ use crate::{Frequencies, Method, Plan, plant};
 /// How often the advised step is halved.
 const HALVINGS: u32 = 4;
 
-/// Candidates may take so many evaluations of an element or body, however soon the run failed: at 10 ns each,
-/// 2 s.
+/// Minimum budget of the candidates in evaluations of an element or body: 2 s at 10 ns each.
 const LEAST_BUDGET: f64 = 2e8;
 
 /// A run that failed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FailedRun {
-    /// Why, where that is known, e.g. `step too large: ω·h = 3.1 at t = 0`.
+    /// Cause, if it is known, e.g. `step too large: ω·h = 3.1 at t = 0`.
     pub cause: Option<String>,
-    /// What went wrong, e.g. ``the velocity of body `crank` is not finite``.
+    /// Symptom, e.g. ``the velocity of body `crank` is not finite``.
     pub what: String,
     /// The step that failed, counted from 1.
     pub step: u64,
-    /// Steps the run was to take.
+    /// Planned number of steps.
     pub steps: u64,
     /// \[s\] the step size.
     pub step_size: f64,
     /// \[s\] the time after the step that failed.
     pub time: f64,
-    /// What helps.
+    /// Remedy.
     pub remedy: Remedy,
 }
 
-/// What helps a run that failed.
+/// Remedy of a failed run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Remedy {
-    /// \[s\] a step with which the same run comes to its end.
+    /// \[s\] a step with which the same run completes.
     Step(f64),
     /// \[s\] these shorter steps fail, too.
     NoneOf(Vec<f64>),
-    /// \[s\] a step that takes too long to try.
+    /// \[s\] a step whose run would take too long to test.
     Untried(f64),
-    /// No step was looked for.
+    /// No search for a step was made.
     Unsought,
 }
 
 impl FailedRun {
-    /// Describes the failure of a run in its step `failed`, and looks for a step that works; `every` is the sampling
-    /// interval where one was given. `progress` is given the evaluations that the search has made and may make.
+    /// Describes the failure of a run in its step `failed`, and searches for a step that works; `every` is the sampling
+    /// interval, if given. `progress` receives the evaluations made and allowed.
     #[must_use]
     pub fn new(
         scene: &Scene,
@@ -77,7 +76,7 @@ impl FailedRun {
         Self { cause, remedy, ..Self::untried(scene, run, failed, trouble) }
     }
 
-    /// Describes the failure; no step is looked for, which takes further runs.
+    /// Describes the failure without searching for a step, which would require further runs.
     #[must_use]
     pub fn untried(scene: &Scene, run: &Plan, failed: u64, trouble: Trouble) -> Self {
         Self {
@@ -91,25 +90,27 @@ impl FailedRun {
         }
     }
 
-    /// What helps, in words.
+    /// The remedy as a sentence.
     #[must_use]
     pub fn advice(&self) -> String {
         match &self.remedy {
             Remedy::Step(step) => {
-                format!("--step {} works: it was run over the same time", display(*step))
+                format!("--step {} works: a run over the same duration completed", display(*step))
             }
             Remedy::NoneOf(tried) => {
                 let tried: Vec<String> = tried.iter().map(|step| display(*step)).collect();
                 format!(
-                    "shorter steps fail, too ({}): look at the scene's pose, stiffnesses, \
-                     preloads, loads and inputs",
+                    "shorter steps fail, too ({}): check the scene's pose, stiffnesses, preloads, loads and inputs",
                     tried.join(", ")
                 )
             }
             Remedy::Untried(step) => {
-                format!("--step {} is advised; it takes too long to be tried here", display(*step))
+                format!(
+                    "try --step {}; it was not tested here because the run takes too long",
+                    display(*step)
+                )
             }
-            Remedy::Unsought => "a run of this case alone looks for a step that works".to_owned(),
+            Remedy::Unsought => "run this case alone to search for a step that works".to_owned(),
         }
     }
 }
@@ -139,7 +140,7 @@ fn describe(scene: &Scene, trouble: Trouble) -> String {
         Trouble::Step(cause) => dbd_scene::fault(scene, &cause),
         Trouble::Growth { growth, body } => {
             let (growth, body) = (significant(growth, 2), scene.body_name(body));
-            format!("{growth} J came from nowhere, body `{body}` is the fastest,")
+            format!("the energy balance is off by {growth} J (fastest body `{body}`)")
         }
         Trouble::Torn { joint, extension } => {
             let joint = scene.joints.get(joint).map(|joint| joint.name.clone()).unwrap_or_default();
@@ -152,7 +153,7 @@ fn describe(scene: &Scene, trouble: Trouble) -> String {
     }
 }
 
-/// Why a run failed, as far as its step is to blame.
+/// Cause of a failure, if it is the step.
 fn cause(scene: &Scene, method: &Method, step: f64, remedy: &Remedy) -> Option<String> {
     let frequencies = Frequencies::of(scene);
     let limit = method.stability_limit();
@@ -161,12 +162,12 @@ fn cause(scene: &Scene, method: &Method, step: f64, remedy: &Remedy) -> Option<S
     let shown = |z: f64| significant(z, 3);
     let beyond = |sign: &str, z: f64| {
         format!(
-            "step too large: ω·h {sign} {} at t = 0, {scheme} bears {}",
+            "step too large: ω·h {sign} {} at t = 0, the limit of {scheme} is {}",
             shown(z),
             significant(limit, 4)
         )
     };
-    // The estimate is never above the truth: nothing needs to be tried.
+    // The estimate is a lower bound: no trial is needed.
     if least > limit {
         return Some(beyond("=", least));
     }
@@ -182,13 +183,13 @@ fn cause(scene: &Scene, method: &Method, step: f64, remedy: &Remedy) -> Option<S
     }
     if limit.is_infinite() {
         return Some(format!(
-            "step too large: a shorter one works ({scheme} is stable at any ω·h about the pose at t = 0, but \
-             large motions within a step have limits of their own)"
+            "step too large: a shorter one works ({scheme} is stable at any ω·h about the pose at t = \
+             0, but large motions within a step have other limits)"
         ));
     }
     Some(format!(
-        "step too large: a shorter one works (ω·h ≤ {} at t = 0, {scheme} bears {}, but frequencies \
-         rise along a motion, and dampers and spins have limits of their own)",
+        "step too large: a shorter one works (ω·h ≤ {} at t = 0, the limit of {scheme} is {}, but \
+         frequencies rise along a motion, and dampers and angular velocities have other limits)",
         shown(most),
         significant(limit, 4),
     ))
@@ -198,7 +199,7 @@ fn cause(scene: &Scene, method: &Method, step: f64, remedy: &Remedy) -> Option<S
 struct Search<'s> {
     scene: &'s Scene,
     method: &'s Method,
-    /// Evaluations that all candidates together may take.
+    /// Evaluations allowed for all candidates together.
     budget: f64,
     spent: f64,
     progress: &'s mut dyn FnMut(u64, u64),
@@ -207,7 +208,7 @@ struct Search<'s> {
 impl Search<'_> {
     fn remedy(mut self, run: &Plan, every: Option<f64>) -> Remedy {
         let advised = Frequencies::of(self.scene).default_limit(self.method, run.duration);
-        // Not the failed step itself, nor one as good as equal to it.
+        // Shorter than the failed step, and not nearly equal to it.
         let mut limit = advised.min(run.step / 2.0);
         let mut tried = Vec::new();
         for _ in 0..=HALVINGS {
@@ -227,7 +228,7 @@ impl Search<'_> {
         Remedy::NoneOf(tried)
     }
 
-    /// Whether a run comes to its end, looked at where `run` looks.
+    /// Whether a run completes, checked at the same steps as in `run`.
     fn comes_to_its_end(&mut self, run: &Plan) -> bool {
         let Ok(mut plant) = plant(self.scene, self.method, run.step) else { return false };
         let mut judge = Judge::new(self.scene, plant.as_ref());
@@ -254,7 +255,7 @@ impl Search<'_> {
     }
 }
 
-/// Evaluations of an element or body in so many steps.
+/// Evaluations of elements and bodies in the given number of steps.
 fn cost(scene: &Scene, method: &Method, steps: u64) -> f64 {
     let parts = scene.model.bodies.len() + scene.model.tsda_count() + scene.model.torsions.len();
     steps as f64 * f64::from(method.evaluations()) * parts as f64

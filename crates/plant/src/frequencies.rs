@@ -1,8 +1,7 @@
-//! How fast a scene can vibrate at t = 0, how fast its bodies spin, and the step that follows.
+//! Highest frequency and angular velocity of a scene at t = 0, and the advised step.
 //!
-//! `scene => highest frequency: bound, estimate; fastest spin; advised step`. In double precision
-//! whatever precision runs, so that a default step of an explicit scheme is a function of the scene alone.
-//! Speaks for t = 0, not for the future.
+//! `scene => highest frequency: bound, estimate; largest angular velocity; advised step`. Always computed in double
+//! precision, so that the default step of an explicit scheme depends on the scene alone. Valid at t = 0 only.
 
 use std::f64::consts::TAU;
 
@@ -20,17 +19,17 @@ use crate::time::display;
 /// ships, chains included, whose frequencies lie close together.
 const ITERATIONS: u32 = 200;
 
-/// The highest angular frequency and the fastest spin of a scene at t = 0.
+/// The highest angular frequency and the largest angular velocity of a scene at t = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frequencies {
     /// \[rad/s\] never below the true value; 0 where nothing vibrates.
     pub bound: f64,
-    /// \[rad/s\] never above that of the springs, but for rounding: see
+    /// \[rad/s\] a lower bound, except for rounding: see
     /// [`dbd_kernel::frequency::estimate`].
     pub estimate: f64,
     /// \[rad/s\] the largest angular velocity of a body.
     pub spin: f64,
-    /// The body that spins so.
+    /// The body with that angular velocity.
     pub fastest: usize,
     /// \[s\] the shortest period of a sine or a repeated table; infinite without one.
     pub period: f64,
@@ -40,7 +39,7 @@ impl Frequencies {
     /// The frequencies of a scene.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
-        // In the plane the bound knows of no turn that leads out of it.
+        // In the plane the bound excludes rotations out of it.
         let model = scene.stepped();
         let state = State::initial(model);
         let (spin, fastest) = fastest_spin(&state);
@@ -66,8 +65,7 @@ impl Frequencies {
     }
 
     /// \[s\] half the stability limit of leapfrog, 1/ω of the bound, or the step in which the
-    /// fastest body turns by [`LARGEST_TURN`], if that is shorter. `None` where nothing vibrates or
-    /// spins.
+    /// fastest body turns by [`LARGEST_TURN`], if that is shorter. `None` if nothing vibrates or rotates.
     #[must_use]
     pub fn advised_step(&self) -> Option<f64> {
         match (self.vibration_step(), self.spin_step()) {
@@ -84,7 +82,7 @@ impl Frequencies {
         (self.spin > 0.0).then(|| LARGEST_TURN / self.spin)
     }
 
-    /// \[s\] the longest step that a method takes where none is given: [`longest`].
+    /// \[s\] the longest default step of a method: [`longest`].
     #[must_use]
     pub fn default_limit(&self, method: &Method, duration: f64) -> f64 {
         let bears =
@@ -92,13 +90,13 @@ impl Frequencies {
         longest(self.bound, self.spin, bears, duration).min(self.period / STEPS_PER_PERIOD)
     }
 
-    /// \[s\] the longest step in which no body turns too far; infinite where none spins.
+    /// \[s\] the longest step in which no body rotates too far; infinite if none rotates.
     #[must_use]
     pub fn longest_turn(&self) -> f64 {
         self.spin_step().unwrap_or(f64::INFINITY)
     }
 
-    /// What to say of a step in which a body turns too far.
+    /// Warning about a step in which a body rotates too far.
     #[must_use]
     pub fn warning(&self, scene: &Scene, step: f64) -> Option<String> {
         let longest = self.spin_step()?;
@@ -109,7 +107,7 @@ impl Frequencies {
         let body = scene.body_names.get(self.fastest).map_or("", String::as_str);
         Some(format!(
             "body `{body}` turns by {} rad in a step of {} at t = 0: beyond {LARGEST_TURN} rad \
-             energy and attitude go wrong; a step of at most {}",
+             energy and attitude are inaccurate; use a step of at most {}",
             significant(turn, 2),
             display(step),
             approximate(longest),
@@ -117,12 +115,12 @@ impl Frequencies {
     }
 }
 
-/// An advised step and where it comes from, for people.
+/// Text of an advised step and its origin.
 #[must_use]
 pub fn advised_text(step: Option<f64>, bound_hz: f64) -> String {
     match step {
         Some(step) if step * bound_hz * TAU < 1.0 - 1e-9 => {
-            format!("{} ({LARGEST_TURN} rad of the fastest spin)", approximate(step))
+            format!("{} ({LARGEST_TURN} rad per step of the fastest body)", approximate(step))
         }
         Some(step) => format!("{} (1/ω of the bound)", approximate(step)),
         None => "– (nothing vibrates)".into(),

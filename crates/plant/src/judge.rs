@@ -1,9 +1,8 @@
-//! What a state holds, and whether a run can go on from it.
+//! Energy and joint extensions of a state, and checks whether a run can continue.
 //!
-//! `(model in the precision that runs, state) => energy, largest joint extension | trouble`, in
-//! double precision: the stored words are taken as exact, whatever precision stepped them. A run
-//! that diverges need not reach infinity before its end; it shows in energy that came from nowhere:
-//! neither the start nor gravity, loads and inputs can have given it, see `budget`.
+//! `(model in the plant's precision, state) => energy, largest joint extension | failure`, in double precision: the
+//! stored words are taken as exact. A diverging run need not reach infinity before its end; it is detected by energy
+//! that neither the initial state nor gravity, loads and inputs can have supplied, see `budget`.
 
 use dbd_kernel::energy::{energy, energy_with_extensions};
 use dbd_kernel::laws::Laws as _;
@@ -18,19 +17,19 @@ use crate::budget::{Budget, free_length};
 use crate::numerals::{Digits, Numerals};
 use dbd_scene::default_step::LARGEST_TURN;
 
-/// Where energy came from nowhere, a joint's element that is longer than this many times the largest
+/// With unexplained energy, a joint's element that is longer than this many times the largest
 /// free length of all joints is torn by it. A soft one may well be as long under its load.
 const TORN: f64 = 1000.0;
 
-/// A joint that is open by more than this share of its free length is no longer the joint that was
-/// meant: its elements may point elsewhere by as many radians, and hold other directions as much
-/// more or less. Mounts of rubber that carry a car open by a fifth.
+/// A joint extended by more than this fraction of its free length no longer acts as intended: its elements may tilt by
+/// as many radians, and their stiffness per direction changes by as much. Rubber mounts that carry a car extend by a
+/// fifth.
 pub const OPENED: f64 = 0.25;
 
-/// \[1\] a spring is on a side whose extension is beyond this share of its free length: far above rounding.
+/// \[1\] fraction of its free length by which a spring must be extended or compressed: far above rounding.
 const SIDE: f64 = 1e-5;
 
-/// The same of the scene's warnings at t = 0, by so many times more.
+/// Factor for the scene's warnings at t = 0.
 const WARNED: f64 = 100.0;
 
 /// Why a run ended early.
@@ -43,9 +42,9 @@ pub enum Trouble {
         /// The row of the fastest body.
         body: usize,
     },
-    /// The energy grew beyond all measure, by far more than anything in the scene can have given.
+    /// The energy grew far beyond the bound of what the scene can supply.
     Growth {
-        /// \[J\] by so much.
+        /// \[J\] growth.
         growth: f64,
         /// The row of the fastest body.
         body: usize,
@@ -59,8 +58,7 @@ pub enum Trouble {
     },
 }
 
-/// How far a joint opened in the states that were judged. What happened between two of them is
-/// not known.
+/// Extension of a joint in the checked states. Values between two of them are unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Opening {
     /// The row of the joint.
@@ -76,19 +74,19 @@ pub struct Opening {
 }
 
 impl Opening {
-    /// The extension as a share of the free length.
+    /// The extension as a fraction of the free length.
     #[must_use]
     pub fn share(&self) -> f64 {
         self.extension / self.free_length
     }
 }
 
-/// The body that turned furthest in a step, in the states that were judged.
+/// The body with the largest rotation per step in the checked states.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Turning {
     /// The row of the body.
     pub body: usize,
-    /// \[rad\] by so much.
+    /// \[rad\] rotation.
     pub turn: f64,
     /// \[s\] when.
     pub time: f64,
@@ -96,7 +94,7 @@ pub struct Turning {
     pub since: Option<f64>,
 }
 
-/// What a raw spring that acts on both sides, though its name says one, did in the states that were judged.
+/// A two-sided spring whose name suggests a one-sided one, in the checked states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reversal {
     /// The spring.
@@ -116,7 +114,7 @@ impl Reversal {
     fn push(&mut self, tension: f64, time: f64) {
         let other = if self.spring.pulls { -tension } else { tension };
         let first = *self.first.get_or_insert(other);
-        // What is on the other side at the start is warned of before the run.
+        // A spring on the other side at the start is reported before the run.
         if other <= self.least || first > WARNED * self.least {
             return;
         }
@@ -127,7 +125,7 @@ impl Reversal {
     }
 }
 
-/// What a state holds.
+/// Energy and extensions of a state.
 pub struct Verdict {
     /// \[J\] its energy.
     pub energy: Energy<f64>,
@@ -142,9 +140,9 @@ pub struct Judge {
     owners: Vec<usize>,
     /// \[m\] the clearance of each of these groups.
     clearances: Vec<f64>,
-    /// \[m\] the largest extension of each joint in the state that was judged last.
+    /// \[m\] the largest extension of each joint in the last checked state.
     extensions: Vec<f64>,
-    /// \[m\] of that what is beyond its clearance.
+    /// \[m\] the part of it beyond the clearance.
     beyond: Vec<f64>,
     openings: Vec<Opening>,
     turning: Turning,
@@ -156,7 +154,7 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// The judge of a scene's plant.
+    /// The checker of a scene's plant.
     #[must_use]
     pub fn new(scene: &Scene, plant: &dyn AnyPlant) -> Self {
         let model = plant.model();
@@ -180,7 +178,7 @@ impl Judge {
             since: None,
         };
         let openings = lengths.iter().enumerate().map(opening).collect();
-        // Guides have no say: how far their points lie from the lines is not how large they are.
+        // Guides are excluded: the distance of their points from the lines is not a size.
         let stars = joints.iter().filter(|group| group.law == Law::Tsda);
         let torn = TORN * stars.map(|group| free_length(model, group)).fold(0.0, f64::max);
         let start = State::initial(model);
@@ -203,35 +201,34 @@ impl Judge {
         }
     }
 
-    /// How far each joint opened in the states so far, in scene order.
+    /// Extension of each joint in the states so far, in scene order.
     #[must_use]
     pub fn openings(&self) -> &[Opening] {
         &self.openings
     }
 
-    /// \[m\] the largest extension of each joint's elements in the state that was judged last, in scene
-    /// order.
+    /// \[m\] the largest extension of each joint's elements in the last checked state, in scene order.
     #[must_use]
     pub fn extensions(&self) -> &[f64] {
         &self.extensions
     }
 
-    /// The body that turned furthest in a step so far.
+    /// The body with the largest rotation per step so far.
     #[must_use]
     pub fn turning(&self) -> Turning {
         self.turning
     }
 
-    /// The springs named as what acts on one side, and whether they acted on the other so far.
+    /// The springs named like one-sided ones, and whether they acted on the other side so far.
     #[must_use]
     pub fn reversals(&self) -> &[Reversal] {
         &self.reversals
     }
 
-    /// What a state holds.
+    /// Energy and extensions of a state.
     ///
     /// # Errors
-    /// A [`Trouble`] where the run cannot go on from it.
+    /// A [`Trouble`] if the run cannot continue.
     pub fn judge(&mut self, state: &State<SceneModel<F64>>) -> Result<Verdict, Trouble> {
         let energy = self.measure(state);
         if !energy.total().is_finite() {
@@ -251,7 +248,7 @@ impl Judge {
         Ok(Verdict { energy, extension })
     }
 
-    /// Takes note of the fastest spin.
+    /// Records the largest angular velocity.
     fn look_at_turns(&mut self, state: &State<SceneModel<F64>>) {
         let squares =
             state.bodies.iter().map(|body| body.angular_velocity.dot(body.angular_velocity));
@@ -271,7 +268,7 @@ impl Judge {
         }
     }
 
-    /// Takes note of the side on which springs act.
+    /// Records the side on which springs act.
     fn look_at_springs(&mut self, state: &State<SceneModel<F64>>) {
         if self.reversals.is_empty() {
             return;
@@ -301,7 +298,7 @@ impl Judge {
         })
     }
 
-    /// Takes note of every joint's extension; the joint with the largest, and that.
+    /// Records every joint's extension; returns the joint with the largest one, and its value.
     fn look(&mut self, state: &State<SceneModel<F64>>) -> (usize, f64) {
         let time = state.step as f64 * self.step_size;
         for (opening, beyond) in self.openings.iter_mut().zip(&self.beyond) {
@@ -342,7 +339,7 @@ pub fn laws_dissipate(scene: &Scene) -> bool {
     laws.is_damped() || laws.memory().is_some()
 }
 
-/// Whether nothing but the initial state gives energy.
+/// Whether the initial state is the only source of energy.
 fn undriven(model: &SceneModel<F64>) -> bool {
     model.loads.is_empty() && model.inputs.is_empty()
 }

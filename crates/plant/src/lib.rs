@@ -1,25 +1,23 @@
-//! Scenes stepped by any scheme in any precision, behind one type: what stands between a scene and
-//! all that runs one on a host.
+//! Scenes stepped by any scheme in any precision behind one type, for everything that runs a scene on a host.
 //!
-//! `(scene, method, step) => plant => state, energy, read-outs`. The modules in the order in which
-//! they stand on each other:
+//! `(scene, method, step) => plant => state, energy, sensors`. The modules in dependency order:
 //!
 //! - [`time`]: times with a unit, as text.
-//! - [`digits`]: numbers as people read them.
+//! - [`digits`]: rounded numbers for display.
 //! - [`plan`]: a run in whole numbers.
 //! - [`names`]: scheme, damping, precision and orientation by name.
-//! - [`method`]: what these make together.
-//! - [`numerals`]: how many digits a precision's numbers have.
-//! - [`readings`]: what sensors show, in double precision.
-//! - [`frequencies`]: how fast a scene can vibrate, and the step that follows.
-//! - [`any`]: what a plant of any method can do.
-//! - `budget`: how much energy a run can have.
-//! - `refusal`: why there is no plant of a scene.
-//! - [`plant`](mod@plant): where the names become the kernel's types.
-//! - [`judge`]: what a state holds, and whether a run can go on from it.
-//! - [`failure`]: where a run failed, and which step works instead.
-//! - [`rounding`]: what sums in single precision lose of slow motion.
-//! - [`instance`]: a scene as a component of another tool, what goes in and out by name.
+//! - [`method`]: their combination.
+//! - [`numerals`]: number formats of the precisions.
+//! - [`readings`]: sensor values in double precision.
+//! - [`frequencies`]: highest frequency of a scene, and the advised step.
+//! - [`any`]: interface of a plant, independent of its method.
+//! - `budget`: upper bound of the energy of a run.
+//! - `refusal`: errors when creating a plant.
+//! - [`plant`](mod@plant): plant of any method, with the kernel's types.
+//! - [`judge`]: energy and joint extensions of a state, and whether a run can continue.
+//! - [`failure`]: failed runs: position, cause, and a step that works.
+//! - [`rounding`]: rounding losses of slow motion in single precision.
+//! - [`instance`]: a scene as a component of another tool, with named inputs and outputs.
 //!
 //! A scene and a run:
 //!

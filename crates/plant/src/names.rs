@@ -1,27 +1,26 @@
 //! Scheme, damping, precision and orientation by name.
 //!
-//! `name => choice; choice => name, what it is`. The documentation of a choice is what users read of
-//! it, too.
+//! `name => choice; choice => name, summary`. The documentation of a choice is also its summary for users.
 
 /// A choice by name.
 pub trait Named: Copy + PartialEq + 'static {
     /// All of them, in the order in which they are listed.
     const ALL: &'static [Self];
 
-    /// What users call it, also in summaries and tables.
+    /// Its name for users, also in summaries and tables.
     fn name(self) -> &'static str;
 
-    /// What it is, in one sentence without a full stop.
+    /// Summary in one sentence without a full stop.
     fn summary(self) -> &'static str;
 
-    /// The choice of a name; `None` where nothing is called so.
+    /// The choice of a name; `None` if unknown.
     #[must_use]
     fn of_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|choice| choice.name() == name)
     }
 }
 
-/// An enumeration whose variants have names, and whose documentation users read, too.
+/// An enumeration with named variants whose documentation is shown to users.
 macro_rules! named {
     (
         $(#[$outer:meta])*
@@ -55,14 +54,14 @@ macro_rules! named {
 }
 
 named! {
-    /// The schemes by name; leapfrog where nothing is said.
+    /// Schemes by name; the default is leapfrog.
     #[derive(Default)]
     SchemeName {
-        /// The paper's step: order 1, three evaluations, one more per Newton iteration.
+        /// The paper's scheme: order 1, three evaluations, one more per Newton iteration.
         Dbd = "dbd",
-        /// The same with predicted positions: order 1, two evaluations, dissipates.
+        /// dbd with predicted positions: order 1, two evaluations, dissipates.
         DbdP1 = "dbd-p1",
-        /// The same with corrected positions, too: order 1, three evaluations, dissipates.
+        /// dbd with predicted and corrected positions: order 1, three evaluations, dissipates.
         DbdP2 = "dbd-p2",
         /// Kick, then drift: order 1, one evaluation, no energy drift.
         SemiImplicitEuler = "semi-implicit-euler",
@@ -75,29 +74,29 @@ named! {
         BlanesMoanS6 = "blanes-moan-s6",
         /// Classical Runge–Kutta: order 4, four evaluations, dissipates.
         Rk4 = "rk4",
-        /// One linear solve: order 2, any stiffness, damps what the step does not resolve.
+        /// One linear solve: order 2, any stiffness, damps frequencies that the step does not resolve.
         GeneralizedAlpha = "generalized-alpha",
-        /// The same extrapolated: order 3, three linear solves, any stiffness.
+        /// generalized-alpha extrapolated: order 3, three linear solves, any stiffness.
         GeneralizedAlpha3 = "generalized-alpha-3",
     }
 }
 
 named! {
-    /// The ways of damping by name.
+    /// Damping modes by name.
     DampingName {
-        /// Pairwise impulses that know of the kick before them: no limit of the step.
+        /// Pairwise implicit impulses that include the preceding force impulse: no step limit.
         Sweeps = "sweeps",
-        /// As sweeps at about half their cost, a joint's dampers as they stand at the start.
+        /// Like sweeps at about half the cost, with each joint's dampers as at the start of the step.
         JointWise = "joint-wise",
-        /// Forces at the velocities of each evaluation: limit the step.
+        /// Damper forces at the velocities of each evaluation: limits the step.
         Explicit = "explicit",
-        /// Part of the linear solve of generalized-alpha: no limit of the step.
+        /// Part of the linear solve of generalized-alpha: no step limit.
         Implicit = "implicit",
     }
 }
 
 named! {
-    /// The precisions by name; double where nothing is said.
+    /// Precisions by name; the default is double.
     #[derive(Default)]
     PrecisionName {
         /// Double precision.
@@ -105,15 +104,15 @@ named! {
         F64 = "f64",
         /// Single precision.
         F32 = "f32",
-        /// Single precision with positions and orientations in fixed point: nearly what double has.
+        /// Single precision with positions and orientations in fixed point: accuracy close to double.
         Fixed = "fixed",
-        /// Single precision with micromath's square root: what fast and loose costs.
+        /// Single precision with micromath's approximate square root, for comparison.
         F32Micromath = "f32-micromath",
     }
 }
 
 named! {
-    /// The ways of storing an orientation by name; quaternions where nothing is said.
+    /// Orientation representations by name; the default is quaternions.
     #[derive(Default)]
     OrientationName {
         /// Unit quaternions.
@@ -125,7 +124,7 @@ named! {
 }
 
 impl PrecisionName {
-    /// Whether what it stores of a body is one number per component, as columns of a trace show it.
+    /// Whether it stores one number per component of a body, as in the columns of a trace.
     #[must_use]
     pub fn is_plain(self) -> bool {
         self != Self::Fixed
@@ -154,7 +153,7 @@ mod tests {
             assert_eq!(SchemeName::of_name(scheme.name()), Some(*scheme));
         }
         assert_eq!(SchemeName::of_name("euler"), None);
-        let summary = "Forces at the velocities of each evaluation: limit the step";
+        let summary = "Damper forces at the velocities of each evaluation: limits the step";
         assert_eq!(DampingName::Explicit.summary(), summary);
     }
 }

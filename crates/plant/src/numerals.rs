@@ -72,7 +72,7 @@ impl Digits {
     /// Writes the shortest text that reads back to the same bits, as `{:?}` has it.
     ///
     /// # Errors
-    /// Where the writer cannot take it.
+    /// If the writer fails.
     pub fn write(self, value: f64, to: &mut impl Write) -> io::Result<()> {
         let mut buffer = zmij::Buffer::new();
         let text = match self {
@@ -85,8 +85,7 @@ impl Digits {
         to.write_all(text.as_bytes())
     }
 
-    /// Reads back what [`Self::write`] has written, widened exactly; `None` for any other text, be it a
-    /// number elsewhere.
+    /// Reads back the output of [`Self::write`], widened exactly; `None` for any other text, even if it is a number.
     #[must_use]
     pub fn read(self, text: &str) -> Option<f64> {
         match text {
@@ -121,8 +120,8 @@ fn is_spelled_alike(value: f64, denominator: f64) -> bool {
 }
 
 impl Numerals {
-    /// The numerals of a precision and a way of storing orientations, by their names; `None` where there is no
-    /// such precision.
+    /// The numerals of a precision and an orientation representation, by their names; `None` if the precision is
+    /// unknown.
     #[must_use]
     pub fn of_names(precision: &str, orientation: &str) -> Option<Self> {
         let precision = PrecisionName::of_name(precision)?;
@@ -187,7 +186,7 @@ mod tests {
         assert!(Digits::Double.read("NaN").is_some_and(f64::is_nan));
     }
 
-    /// Numbers of all magnitudes, of few digits and of few bits, where two texts are equally near.
+    /// Numbers of all magnitudes, with few digits and few bits, for which two texts may be equally near.
     #[test]
     fn texts_are_those_of_the_standard_library() {
         let mut state = 0x9e37_79b9_7f4a_7c15_u64;

@@ -1,9 +1,9 @@
 //! A run in whole numbers: step, number of steps, steps per sample.
 //!
 //! `(step, duration, every) => plan`. Duration and sampling interval are whole multiples of the
-//! step, within 1e-9 of them; nothing is ever interpolated. A step that was given is taken as it
-//! is or refused; one that is ours is shortened to fit. A pure function of its arguments, in
-//! + − × ÷ and conversions to integers only, so that every host plans the same run.
+//! step, within 1e-9 of them; nothing is ever interpolated. A given step is used as it is or rejected; a default step
+//! is shortened to fit. A pure function of its arguments, in + − × ÷ and conversions to integers only, so that every
+//! host plans the same run.
 
 use miette::Diagnostic;
 use thiserror::Error;
@@ -18,16 +18,16 @@ const SAMPLES: u64 = 500;
 /// A run is looked at about this often, whatever its sampling interval.
 const LOOKS: u64 = 1000;
 
-/// Steps between two looks at most, so that progress is seen.
+/// Maximum number of steps between two checks, so that progress is visible.
 const MOST_STEPS_UNSEEN: u64 = 1024;
 
-/// More steps than this are refused: at 100 ns each they take longer than a day.
+/// Maximum number of steps: at 100 ns each they take longer than a day.
 pub const MOST_STEPS: f64 = 1e12;
 
 /// More samples than this are refused: a trace of several gigabytes.
 pub const MOST_SAMPLES: u64 = 10_000_000;
 
-/// The step that a run is to take.
+/// The requested step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepRequest {
     /// \[s\] exactly this one.
@@ -36,14 +36,14 @@ pub enum StepRequest {
     AtMost(f64),
 }
 
-/// What a run is planned from.
+/// Request of a plan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
     /// The step.
     pub step: StepRequest,
     /// \[s\] simulated time, > 0.
     pub duration: f64,
-    /// \[s\] the sampling interval, > 0; about 500 samples where there is none.
+    /// \[s\] the sampling interval, > 0; about 500 samples if `None`.
     pub every: Option<f64>,
 }
 
@@ -67,8 +67,8 @@ impl Plan {
         n as f64 * self.step
     }
 
-    /// Steps between two looks at a run at most: some thousand looks, whatever its samples, and never so few that
-    /// no progress is seen.
+    /// Maximum number of steps between two checks of a run: some thousand checks, independent of its samples, and
+    /// enough that progress is visible.
     #[must_use]
     pub fn unseen(&self) -> u64 {
         (self.steps / LOOKS).clamp(1, MOST_STEPS_UNSEEN)
@@ -85,8 +85,8 @@ impl Plan {
 #[derive(Clone, Debug, PartialEq, Error, Diagnostic)]
 pub enum PlanError {
     /// Duration or sampling interval is not a whole multiple of the step.
-    #[error("{what} of {} is not a whole multiple of the step of {}", display(*value), display(*step))]
-    #[diagnostic(help("nearest that fit: {}", alternatives(steps, intervals)))]
+    #[error("{what} of {} is not a whole multiple of the step {}", display(*value), display(*step))]
+    #[diagnostic(help("nearest valid values: {}", alternatives(steps, intervals)))]
     Multiple {
         /// `the duration` or `the sampling interval`.
         what: &'static str,
@@ -96,16 +96,16 @@ pub enum PlanError {
         step: f64,
         /// \[s\] the nearest steps that fit duration and sampling interval, nearest first.
         steps: Vec<f64>,
-        /// \[s\] the nearest sampling intervals that fit the step, where that is enough.
+        /// \[s\] the nearest sampling intervals that fit the step, if that suffices.
         intervals: Vec<f64>,
     },
     /// No step divides both.
     #[error(
-        "no step divides both the duration of {} and the sampling interval of {}",
+        "no step divides both the duration {} and the sampling interval {}",
         display(*duration),
         display(*every)
     )]
-    #[diagnostic(help("sampling intervals that fit: {}", listed("--every", intervals)))]
+    #[diagnostic(help("valid sampling intervals: {}", listed("--every", intervals)))]
     Incommensurate {
         /// \[s\] the duration.
         duration: f64,
@@ -116,11 +116,11 @@ pub enum PlanError {
     },
     /// The sampling interval exceeds the duration.
     #[error(
-        "the sampling interval of {} is longer than the duration of {}",
+        "the sampling interval {} is longer than the duration {}",
         display(*every),
         display(*duration)
     )]
-    #[diagnostic(help("an interval that fits: --every {}", display(*duration)))]
+    #[diagnostic(help("use at most --every {}", display(*duration)))]
     Every {
         /// \[s\] the duration.
         duration: f64,
@@ -128,7 +128,7 @@ pub enum PlanError {
         every: f64,
     },
     /// More than [`MOST_STEPS`].
-    #[error("{} of {} are more than {MOST_STEPS:e}", steps_text(*steps), display(*step))]
+    #[error("{} of {} exceed the maximum of {MOST_STEPS:e}", steps_text(*steps), display(*step))]
     #[diagnostic(help("{}", fewer_steps(*duration)))]
     Steps {
         /// How many.
@@ -139,17 +139,17 @@ pub enum PlanError {
         duration: f64,
     },
     /// More than [`MOST_SAMPLES`].
-    #[error("{} samples are more than {MOST_SAMPLES}", count(*samples))]
-    #[diagnostic(help("a longer sampling interval, for example --every {}", display(*every)))]
+    #[error("{} samples exceed the maximum of {MOST_SAMPLES}", count(*samples))]
+    #[diagnostic(help("use a longer sampling interval, for example --every {}", display(*every)))]
     Samples {
-        /// How many, a whole number.
+        /// Their number, a whole one.
         samples: f64,
-        /// \[s\] an interval that gives about a thousand.
+        /// \[s\] an interval that yields about a thousand.
         every: f64,
     },
 }
 
-/// A whole number; beyond what an f64 tells apart in short.
+/// A whole number; in short form beyond the integers of an f64.
 fn count(number: f64) -> String {
     if number < 1e15 { format!("{number}") } else { format!("{number:.1e}") }
 }
@@ -162,9 +162,9 @@ fn fewer_steps(duration: f64) -> String {
     let step = duration / 1e6;
     if step < f64::MIN_POSITIVE {
         // Parts of it are 0, or numbers of a few bits.
-        return format!("the duration of {} is too short to be divided", display(duration));
+        return format!("use a longer duration: {} is too short to be divided", display(duration));
     }
-    format!("a longer step (for example --step {}) or a shorter --duration", display(step))
+    format!("use a longer step (for example --step {}) or a shorter --duration", display(step))
 }
 
 fn listed(option: &str, times: &[f64]) -> String {
@@ -181,11 +181,11 @@ fn alternatives(steps: &[f64], intervals: &[f64]) -> String {
     }
 }
 
-/// \[s\] the step that a scene is stepped with: the one given, else the scene's, else a round one up to
-/// `longest` \[s\] that its duration and sampling interval are multiples of.
+/// \[s\] the step of a scene: the given one, else the scene's, else a round one up to `longest` \[s\] that divides
+/// duration and sampling interval.
 ///
 /// # Errors
-/// Where no step divides these, or they take too many.
+/// If no step divides these, or too many steps are needed.
 pub fn step_of(
     scene: &Scene,
     given: Option<f64>,
@@ -207,7 +207,7 @@ pub fn plan(request: &Request) -> Result<Plan, PlanError> {
     if let Some(every) = every.filter(|every| *every > duration * (1.0 + WHOLE)) {
         return Err(PlanError::Every { duration, every });
     }
-    // No step serves such an interval, and no whole number may count it.
+    // No step fits such an interval, and its count may overflow.
     if let Some(samples) = every.map(|every| duration / every).filter(|many| *many > MOST_STEPS) {
         return Err(too_many_samples(samples, duration, request.step));
     }
@@ -275,8 +275,7 @@ fn incommensurate(duration: f64, every: Option<f64>) -> PlanError {
 }
 
 /// Steps per sample for about [`SAMPLES`] samples: the divisor of `steps` nearest to
-/// `steps/SAMPLES` in ratio, where one lies within a factor of 2; else with a last interval that
-/// is shorter.
+/// `steps/SAMPLES` in ratio, if one lies within a factor of 2; else with a shorter last interval.
 fn stride_for(steps: u64) -> u64 {
     let mut best = None;
     for intervals in SAMPLES / 2..=SAMPLES * 2 {

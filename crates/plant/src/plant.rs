@@ -1,9 +1,8 @@
-//! A plant of any method behind one type: where the names of a method become the kernel's types.
+//! A plant of any method behind one type; maps the names of a method to the kernel's types.
 //!
-//! `(model, method, step) => plant`. Every scheme is compiled here for every precision, once for
-//! all that steps scenes on a host; so no unit test of this crate makes a plant, for which all of it would
-//! be compiled once more: `tests/` has those that do. A plant owns its model and can be sent to another
-//! thread.
+//! `(model, method, step) => plant`. Every scheme is compiled here for every precision, once for all host tools. Unit
+//! tests of this crate do not create plants, which would compile all of it again; such tests are in `tests/`. A plant
+//! owns its model and can be sent to another thread.
 
 use std::sync::Arc;
 
@@ -114,12 +113,12 @@ macro_rules! with_scheme {
         }
     };
 }
-/// A plant of a scene at t = 0, with the step `step` \[s\]; of a planar scene in its plane, which what
-/// goes in and comes out does not show.
+/// A plant of a scene at t = 0, with the step `step` \[s\]. A planar scene runs in its plane; its inputs and outputs
+/// are spatial.
 ///
 /// # Errors
-/// [`PlantError`] where the precision cannot hold the step or what an input is given, or this build
-/// does not hold the method.
+/// [`PlantError`] if the precision cannot represent the step or an input's values, or this build does not include the
+/// method.
 pub fn plant(scene: &Scene, method: &Method, step: f64) -> Result<Box<dyn AnyPlant>, PlantError> {
     check_inputs(scene, method)?;
     let Some(planar) = &scene.planar else {
@@ -134,7 +133,7 @@ pub fn plant(scene: &Scene, method: &Method, step: f64) -> Result<Box<dyn AnyPla
 /// A plant of an assembled model at t = 0, with the step `step` \[s\].
 ///
 /// # Errors
-/// [`PlantError`] where the precision cannot hold the step, or this build does not hold the method.
+/// [`PlantError`] if the precision cannot represent the step, or this build does not include the method.
 pub fn plant_of_model(
     model: &SceneModel<F64>,
     method: &Method,
@@ -145,8 +144,8 @@ pub fn plant_of_model(
     with_precision!(method, P => with_scheme!(method, scheme => new.typed::<P, _>(scheme)))
 }
 
-/// Whether a method steps a scene with steps of `step` \[s\]: its precision holds the step, what inputs are given, places
-/// and displacements, and its matrix bears the stiffness.
+/// Checks that a method can run a scene with steps of `step` \[s\]: its precision represents the step, inputs,
+/// positions and displacements, and its matrix allows the stiffness.
 ///
 /// # Errors
 /// Those of [`check_step`], [`check_laws`], [`check_inputs`], [`check_extents`] and [`check_stiffness`], in this order.
@@ -158,7 +157,7 @@ pub fn check(scene: &Scene, method: &Method, step: f64) -> Result<(), PlantError
     check_stiffness(scene, method, step)
 }
 
-/// Whether a method's precision has a scene's interactions, and its scheme brings their memories on.
+/// Checks that a method's precision supports a scene's interactions, and its scheme updates their internal states.
 ///
 /// # Errors
 /// [`PlantError::Laws`], [`PlantError::Memory`].
@@ -184,7 +183,7 @@ pub fn check_step(method: &Method, step: f64) -> Result<(), PlantError> {
     if rounded > 0.0 && rounded.is_finite() { Ok(()) } else { Err(refused(method, step)) }
 }
 
-/// Whether a method's matrix bears a scene's stiffness at t = 0 with steps of `step` \[s\].
+/// Checks that a method's matrix allows a scene's stiffness at t = 0 with steps of `step` \[s\].
 ///
 /// # Errors
 /// [`PlantError::Stiff`] with the longest step where it does not.
@@ -196,11 +195,11 @@ pub fn check_stiffness(scene: &Scene, method: &Method, step: f64) -> Result<(), 
     if step <= most { Ok(()) } else { Err(PlantError::Stiff { most, precision }) }
 }
 
-/// Whether a method's precision holds what a scene's inputs are given.
+/// Checks that a method's precision represents the values of a scene's inputs.
 ///
 /// # Errors
-/// [`PlantError::Input`] with the first input that it does not; [`PlantError::Method`] where this
-/// build does not hold the precision, [`PlantError::Planar`] where a planar scene does not run in it.
+/// [`PlantError::Input`] with the first input that does not fit; [`PlantError::Method`] if this build does not include
+/// the precision, [`PlantError::Planar`] if it does not support planar scenes.
 pub fn check_inputs(scene: &Scene, method: &Method) -> Result<(), PlantError> {
     if scene.planar.is_some() {
         return with_planar_precision!(method, P => Ok(dbd_scene::check_inputs::<P>(scene)?));
@@ -208,11 +207,11 @@ pub fn check_inputs(scene: &Scene, method: &Method) -> Result<(), PlantError> {
     with_precision!(method, P => Ok(dbd_scene::check_inputs::<P>(scene)?))
 }
 
-/// Whether a method's precision holds a scene's places and displacements, with steps of `step` \[s\].
+/// Checks that a method's precision represents a scene's positions and displacements, with steps of `step` \[s\].
 ///
 /// # Errors
-/// [`PlantError::Extent`] with the first part that it does not; [`PlantError::Method`] where this build does
-/// not hold the precision.
+/// [`PlantError::Extent`] with the first part that does not fit; [`PlantError::Method`] if this build does not include
+/// the precision.
 pub fn check_extents(scene: &Scene, method: &Method, step: f64) -> Result<(), PlantError> {
     if scene.planar.is_some() {
         return Ok(());
@@ -224,11 +223,11 @@ fn refused(method: &Method, step: f64) -> PlantError {
     PlantError::Step { step, rounded: method.rounded(step), precision: method.precision_name() }
 }
 
-/// What a plant is made from.
+/// Source of a plant.
 struct New<'n> {
-    /// What steps.
+    /// The stepped model.
     model: &'n SceneModel<F64>,
-    /// Where that lies in the world, and the spatial model, of a planar scene.
+    /// For a planar scene: its plane in the world, and the spatial model.
     plane: Option<(&'n Planar, &'n SceneModel<F64>)>,
     method: &'n Method,
     step: f64,
@@ -268,7 +267,7 @@ impl New<'_> {
         Ok((Arc::new(model), Shown { planar, exact, method: *self.method }))
     }
 
-    /// What the kernel refuses, with the names of scene and method.
+    /// Errors of the kernel, with the names of scene and method.
     fn refusal<P: Geometry>(&self, error: kernel::PlantError) -> PlantError {
         match error {
             kernel::PlantError::Step(_) => refused(self.method, self.step),
@@ -290,11 +289,11 @@ struct Typed<P: Geometry, S: Scheme> {
     shown: Shown,
 }
 
-/// How a plant looks from outside: in double precision, in the world.
+/// External view of a plant: in double precision, in world axes.
 struct Shown {
-    /// Where the plane of a planar scene lies.
+    /// The plane of a planar scene.
     planar: Option<Planar>,
-    /// In the world, of a planar scene too.
+    /// The spatial model in world axes, also for a planar scene.
     exact: SceneModel<F64>,
     method: Method,
 }
@@ -360,17 +359,17 @@ impl Shown {
     }
 }
 
-/// What a state may leave the plane by, beside the size of the scene and its own.
+/// Tolerance of a state out of the plane, relative to the size of the scene and of the state.
 const OFF_PLANE: f64 = 1e-6;
 
-/// What the square of an orientation's length may differ from 1 by, as the kernel takes it.
+/// Tolerance of the squared length of an orientation against 1, as in the kernel.
 const UNIT: f64 = 2e-3;
 
 impl<P: Geometry, S: Scheme> AnyPlant for Typed<P, S>
 where
     Plant<Arc<SceneModel<P>>, S>: Send,
 {
-    // As the other one, so that a step is compiled once.
+    // Shares the function above, so that a step is compiled once.
     fn step(&mut self) -> Status {
         self.plant.advance(1)
     }

@@ -18,8 +18,8 @@ pub(crate) fn widened<R: Real>(reading: Reading<R>) -> Reading<f64> {
     }
 }
 
-/// Appends a reading's numbers, one per column; so many NaN where there is no
-/// reading, as where a twist is undefined.
+/// Appends a reading's numbers, one per column; the same number of NaN if there is no reading, for example for an
+/// undefined torsion angle.
 pub fn append(reading: Option<Reading<f64>>, columns: usize, values: &mut Vec<f64>) {
     match reading {
         Some(Reading::Scalar(value)) => values.push(value),

@@ -1,35 +1,35 @@
-//! What sums in single precision lose of slow motion.
+//! Rounding losses of slow motion in single precision.
 //!
-//! `(states of consecutive steps) => per body what its sums rounded off`. A step adds h·v to a position. Where
-//! that is not far above the last digit that the position holds, the sum rounds, step after step the same way, and a
-//! slow body moves too far, too little or not at all. What a position lost is its change less the integral
-//! of its velocity by the trapezoidal rule over every step, whose own error does not grow with time. Only steps
-//! count in which rounding can be seen: others may have an error of the scheme that is larger.
+//! `(states of consecutive steps) => rounding loss per body`. A step adds h·v to a position. If that is not far above
+//! the last digit of the position, the sum is rounded in the same direction in every step, and a slow body moves too
+//! far, too little or not at all. The loss of a position is its change minus the integral of its velocity by the
+//! trapezoidal rule, whose error does not grow with time. Only steps in which rounding is visible count: in others the
+//! error of the scheme may be larger.
 
 use dbd_kernel::{BodyState, F64};
 use dbd_scene::single::{LAST_TURN, last_digit};
 
 use crate::any::AnyPlant;
 
-/// A step counts where it adds less than this many times the last digit of what it adds to.
+/// A step counts if its increment is less than this many times the last digit of the sum.
 const COUNTED: f64 = 1024.0;
 
-/// \[1\] Least share of its motion that a body must lose to be listed.
+/// \[1\] Minimum fraction of its motion that a body must lose to be listed.
 const LOST: f64 = 1e-3;
 
-/// \[1\] Least loss to be listed, in last digits: joints give way by less, and put it right.
+/// \[1\] Minimum loss to be listed, in last digits: joints correct smaller losses.
 const TOLD: f64 = 1024.0;
 
-/// What a body's sums lost of its motion.
+/// Rounding loss of a body's motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
     /// The row of the body.
     pub body: usize,
-    /// Whether it is a turn \[rad\] and not a way \[m\].
+    /// Whether it is a rotation \[rad\] and not a displacement \[m\].
     pub turn: bool,
-    /// \[m, rad\] the most that was lost.
+    /// \[m, rad\] the largest loss.
     pub lost: f64,
-    /// \[m, rad\] how far the body went from its start at most, by its velocity.
+    /// \[m, rad\] the largest displacement of the body from its start, by its velocity.
     pub moved: f64,
     /// \[s\] when the loss was largest.
     pub time: f64,
@@ -43,7 +43,7 @@ struct Sums {
     lost: f64,
     moved: f64,
     time: f64,
-    /// The largest that a sum was rounded to.
+    /// The largest rounded sum.
     last_digit: f64,
 }
 
@@ -65,17 +65,17 @@ impl Sums {
     }
 }
 
-/// A watch over what a plant in single precision rounds off.
+/// Monitor of the rounding losses of a plant in single precision.
 #[derive(Clone, Debug)]
 pub struct RoundingWatch {
     last: Vec<BodyState<F64>>,
     next: Vec<BodyState<F64>>,
-    /// Per body of its way and of its turn.
+    /// Per body, of its displacement and of its rotation.
     sums: Vec<[Sums; 2]>,
 }
 
 impl RoundingWatch {
-    /// A watch from a plant's present state on; `None` where its sums lose nothing that counts.
+    /// A monitor from a plant's present state on; `None` if its precision has no significant losses.
     #[must_use]
     pub fn new(plant: &dyn AnyPlant) -> Option<Self> {
         let precision = plant.method().precision();
@@ -88,7 +88,7 @@ impl RoundingWatch {
         Some(Self { next: last.clone(), last, sums })
     }
 
-    /// Looks at the plant after one more step.
+    /// Updates with the plant after one more step.
     pub fn look(&mut self, plant: &dyn AnyPlant) {
         plant.bodies(&mut self.next);
         let half = 0.5 * plant.step_size();
@@ -107,8 +107,8 @@ impl RoundingWatch {
         std::mem::swap(&mut self.last, &mut self.next);
     }
 
-    /// The bodies that lost more than a thousandth of how far they went and more than 1024 last digits, the largest share
-    /// first.
+    /// The bodies that lost more than a thousandth of their displacement and more than 1024 last digits, the largest
+    /// fraction first.
     #[must_use]
     pub fn losses(&self) -> Vec<Loss> {
         let mut losses: Vec<Loss> = Vec::new();
@@ -129,7 +129,7 @@ fn length(v: [f64; 3]) -> f64 {
     v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
-/// \[rad\] the small turn from an orientation to another, in the body's axes.
+/// \[rad\] the small rotation from an orientation to another, in body axes.
 fn turned(q: [f64; 4], r: [f64; 4]) -> [f64; 3] {
     let [a, b, c, d] = q;
     let [e, f, g, h] = r;

@@ -1,6 +1,6 @@
-//! Requests and answers as JSON: what a page says to the plant behind it.
+//! Requests and answers in JSON between a page and its plant.
 //!
-//! `{"do": …} => answer | {"error": …}`. Steps and frames have calls of their own, [`Desk::advance`] and [`Desk::frame`].
+//! `{"do": …} => answer | {"error": …}`. Steps and frames have separate calls, [`Desk::advance`] and [`Desk::frame`].
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use crate::refused::Refused;
 use crate::session::{Change, Grab, Opened, Session, Set};
 
-/// What a page may ask for.
+/// A request of a page.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 enum Request {
@@ -57,7 +57,7 @@ enum Request {
     Scene {},
 }
 
-/// What is answered to what opens or changes a plant.
+/// Answer to a request that opens or changes a plant.
 #[derive(Serialize)]
 struct Answer {
     #[serde(flatten)]
@@ -86,7 +86,7 @@ impl Desk {
         answer.to_string()
     }
 
-    /// Goes on by so many steps; how many were done.
+    /// Advances by the given number of steps; returns the number done.
     pub fn advance(&mut self, steps: u64) -> u64 {
         self.session.as_mut().map_or(0, |session| session.advance(steps))
     }
@@ -103,7 +103,7 @@ impl Desk {
             self.session = Some(session);
             return Ok(json!(Answer { opened, restarted: true, why: None }));
         }
-        let nothing = || Refused::new("no scene is open", "open one first");
+        let nothing = || Refused::new("no scene is open", "open a scene first");
         let session = self.session.as_mut().ok_or_else(nothing)?;
         match request {
             Request::Open { .. } => {}
@@ -136,7 +136,8 @@ impl Desk {
                 return Ok(json!({ "base64": STANDARD.encode(bytes), "file": file }));
             }
             Request::Restore { base64 } => {
-                let damaged = |_| Refused::new("the text is no base64", "a saved snapshot");
+                let damaged =
+                    |_| Refused::new("the text is not valid base64", "give a saved snapshot");
                 session.restore(&STANDARD.decode(base64).map_err(damaged)?)?;
                 return Ok(now(session));
             }
@@ -161,7 +162,7 @@ impl Desk {
     }
 }
 
-/// What may be other than the page knows after time was turned back.
+/// State that may differ from the page's after going back in time.
 fn now(session: &Session) -> Value {
     let instance = session.instance();
     let inputs: Vec<_> =

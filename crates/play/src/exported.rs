@@ -1,7 +1,7 @@
-//! The functions that a page calls: one desk, texts in memory that both see.
+//! Functions exported to a page: one desk and texts in shared memory.
 //!
-//! `dbd_reserve(length)` makes room for a request, `dbd_ask(length)` answers it; `dbd_advance(steps)` steps; `dbd_frame()` is
-//! where the present frame lies. Places hold until the next call.
+//! `dbd_reserve(length)` makes room for a request, `dbd_ask(length)` answers it; `dbd_advance(steps)` steps;
+//! `dbd_frame()` returns the address of the present frame. Addresses are valid until the next call.
 
 #![allow(unsafe_code, reason = "names that a page finds")]
 
@@ -9,7 +9,7 @@ use std::cell::RefCell;
 
 use crate::ask::Desk;
 
-/// What is kept between calls.
+/// State kept between calls.
 #[derive(Default)]
 struct Kept {
     desk: Desk,
@@ -21,7 +21,7 @@ thread_local! {
     static KEPT: RefCell<Kept> = RefCell::default();
 }
 
-/// Where a request of so many bytes is to be written.
+/// Address for a request of the given number of bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn dbd_reserve(length: usize) -> *mut u8 {
     KEPT.with_borrow_mut(|kept| {
@@ -31,7 +31,7 @@ pub extern "C" fn dbd_reserve(length: usize) -> *mut u8 {
     })
 }
 
-/// Answers the request of the first so many bytes there; how many bytes the answer has.
+/// Answers the request in the given number of bytes there; returns the length of the answer in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn dbd_ask(length: usize) -> usize {
     KEPT.with_borrow_mut(|kept| {
@@ -47,7 +47,7 @@ pub extern "C" fn dbd_answer() -> *const u8 {
     KEPT.with_borrow(|kept| kept.answer.as_ptr())
 }
 
-/// Goes on by so many steps; how many were done.
+/// Advances by the given number of steps; returns the number done.
 #[unsafe(no_mangle)]
 pub extern "C" fn dbd_advance(steps: u32) -> u32 {
     KEPT.with_borrow_mut(|kept| kept.desk.advance(u64::from(steps)) as u32)

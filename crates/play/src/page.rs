@@ -1,7 +1,7 @@
-//! The page around the plant: one file that asks nobody for anything.
+//! The page around the plant: one self-contained file.
 //!
-//! `(scenes, settings, module) => HTML`. The module of WebAssembly stands in it compressed, the worker that runs it and the
-//! scripts that show it beside it; a page drops all into a browser from a disk as from any web host.
+//! `(scenes, settings, module) => HTML`. It contains the compressed WebAssembly module, the worker that runs it and the
+//! scripts that display it, and works from a disk as from any web host.
 
 use std::io::{self, Write as _};
 
@@ -25,13 +25,13 @@ const FORMAT: u32 = 1;
 /// How a module of WebAssembly begins.
 const MAGIC: &[u8] = b"\0asm";
 
-/// The style of this page beside that of reports.
+/// The style of this page, in addition to that of reports.
 const STYLE: &str = include_str!("../web/play.css");
-/// What the page has between its scripts.
+/// The body of the page.
 const BODY: &str = include_str!("../web/play.html");
-/// What runs the module.
+/// The worker that runs the module.
 const WORKER: &str = include_str!("../web/worker.js");
-/// Scripts of the page beside those that draw a mechanism, in order.
+/// Scripts of the page in order, without those that draw a mechanism.
 const SCRIPTS: &[&str] = &[
     include_str!("../web/vendor/codemirror.min.js"),
     include_str!("../web/engine.js"),
@@ -55,17 +55,17 @@ const SCRIPTS: &[&str] = &[
 /// A scene of a page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SceneText {
-    /// What a menu calls it.
+    /// Its name in a menu.
     pub name: String,
-    /// What messages call its text.
+    /// Name of its text in messages.
     pub file: String,
-    /// What it is.
+    /// Description.
     pub description: String,
     /// The scene in TOML.
     pub text: String,
 }
 
-/// What a page begins with.
+/// Initial content of a page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Page {
     /// One scene, or those of a menu; the first is shown.
@@ -93,7 +93,7 @@ pub fn html(page: &Page, module: &[u8]) -> io::Result<String> {
         page: &'p Page,
     }
     if !module.starts_with(MAGIC) {
-        return Err(io::Error::other("it is no module of WebAssembly"));
+        return Err(io::Error::other("not a WebAssembly module"));
     }
     let mut packer = GzEncoder::new(Vec::new(), Compression::best());
     packer.write_all(module)?;

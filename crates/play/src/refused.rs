@@ -6,12 +6,12 @@ use dbd_plant::instance::InstanceError;
 use miette::Diagnostic;
 use serde::Serialize;
 
-/// What is wrong, and what would be right.
+/// Problem and remedy.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Refused {
-    /// What is wrong.
+    /// Problem.
     pub message: String,
-    /// What would be right.
+    /// Remedy.
     pub help: Option<String>,
     /// Where in the scene's text, from 1.
     pub line: Option<usize>,
@@ -20,7 +20,7 @@ pub struct Refused {
 }
 
 impl Refused {
-    /// What has no place in a text.
+    /// An error without a position in a text.
     #[must_use]
     pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { message: message.into(), help: Some(help.into()), line: None, column: None }

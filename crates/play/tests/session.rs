@@ -301,5 +301,5 @@ fn requests_are_answered_in_json_and_what_is_none_is_refused() {
     }
     let long = "#".repeat(MOST_TEXT + 1);
     let answer = ask(json!({ "do": "open", "file": "long.toml", "text": long }));
-    assert!(message(&answer).contains("more than the page takes"));
+    assert!(message(&answer).contains("too long for the page"));
 }

@@ -1,8 +1,8 @@
-//! Which curves a run has, and which of them its page shows.
+//! Curves of a run, and the selection for its page.
 //!
-//! `(scene, mechanism) => charts and the order of their values; curves => charts`. What never moved is
-//! said to be still: round-off, measured by the quantity's scale, is no movement. Of a mechanism of
-//! many parts those that move most have charts.
+//! `(scene, mechanism) => charts and the order of their values; curves => charts`. Quantities that never moved are
+//! listed as still; round-off relative to the quantity's scale is not movement. For a mechanism of many parts those
+//! that move most have charts.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -22,7 +22,7 @@ const ROOM: usize = 75_000;
 const MOST_OF_BODIES: usize = 240;
 const MOST_OF_JOINTS: usize = 80;
 
-/// Movement below this share of its quantity's scale is round-off, by the digits that forces have.
+/// Movement below this fraction of its quantity's scale is round-off, by the digits of forces.
 const ROUND_OFF: [f64; 2] = [1e-6, 1e-10];
 /// The same of the total energy, which is summed in double precision either way.
 const ROUND_OFF_OF_ENERGY: f64 = 1e-13;
@@ -60,8 +60,8 @@ pub struct Finished {
 
 impl Charts {
     /// The charts of a scene's runs. Their values, in order: kinetic, potential and total energy \[J\];
-    /// each read-out's columns; each input; each joint's largest extension \[m\] and force \[N\]; of each
-    /// body that is no spider position \[m\], turn \[rad\], speed \[m/s\] and rate \[rad/s\].
+    /// each sensor's columns; each input; each joint's largest extension \[m\] and force \[N\]; of each
+    /// body that is no spider position \[m\], rotation \[rad\], speed \[m/s\] and rate \[rad/s\].
     #[must_use]
     pub fn of(scene: &Scene, mechanism: &Mechanism, plan: &Plan) -> Self {
         let mut charts = Self::default();
@@ -106,7 +106,7 @@ impl Charts {
                     columns.iter().map(|(column, _)| column.trim_start_matches('.')).collect();
                 let texts = [readout.name.as_str(), quantity(readout.kind, unit), unit];
                 let planned = self.add(Section::Readouts, texts, &names);
-                // Where a point is hides how far it goes.
+                // The displacement of a point is more visible than its position.
                 planned.deviation = readout.kind == "point";
             }
         }
@@ -257,7 +257,7 @@ fn left_out(
         let (lines, movement) = parts.entry(part).or_default();
         for line in chart.lines.iter().filter(|line| !line.still) {
             *lines += 1;
-            // Of a joint its extension counts, of a body how far it goes and turns.
+            // Ranked by a joint's extension, and a body's displacement and rotation.
             if *scale > 0.0 && chart.unit != "m/s" && chart.unit != "rad/s" {
                 *movement = movement.max((line.high - line.low) / scale);
             }
@@ -267,7 +267,7 @@ fn left_out(
     order.sort_by(|a, b| b.1.1.total_cmp(&a.1.1).then(a.0.cmp(&b.0)));
     let mut lines = 0;
     let beyond = |(_, (own, _)): &(usize, (usize, f64))| {
-        // One that is still takes room, too.
+        // A still one also takes space.
         lines += (*own).max(1);
         lines > most
     };
@@ -275,7 +275,7 @@ fn left_out(
     order[first..].iter().map(|(part, _)| *part).collect()
 }
 
-/// What a read-out of a type shows.
+/// Quantity of a sensor type.
 fn quantity(kind: &str, unit: &str) -> &'static str {
     match (kind, unit) {
         ("joint_angle", _) => "angle",
@@ -290,7 +290,7 @@ fn quantity(kind: &str, unit: &str) -> &'static str {
     }
 }
 
-/// What is measured in a unit.
+/// Quantity of a unit.
 fn quantity_of_unit(unit: &str) -> &'static str {
     match unit {
         "N·m" => "torque",
@@ -304,7 +304,7 @@ fn quantity_of_unit(unit: &str) -> &'static str {
     }
 }
 
-/// What an input of a type gives.
+/// Quantity of an input type.
 fn quantity_of_input(kind: &str, unit: &str) -> &'static str {
     match kind {
         "torque" | "joint_torque" => "torque",

@@ -1,14 +1,13 @@
-//! Curves on one grid of times, kept small while a run goes on.
+//! Curves on one grid of times, thinned during a run.
 //!
-//! `rows of values => per interval lowest and highest of each line`. They stand in their order at the
-//! interval's first and last time, so that no peak is lost however long the run. The first and the
-//! last sample are intervals of their own.
+//! `rows of values => per interval lowest and highest of each line`. They are placed in their order at the interval's
+//! first and last time, so that no peak is lost in a long run. The first and the last sample are separate intervals.
 
 /// Points of a line at most.
 pub const MOST_POINTS: usize = 2000;
 /// Points of a line at least, where there are as many samples.
 pub const FEWEST_POINTS: usize = 64;
-/// Values of all lines that are kept while a run goes on.
+/// Maximum number of stored values of all lines.
 const MOST_VALUES: usize = 16_000_000;
 
 /// The lowest and the highest value of an interval, in their order; none, or twice the same.
@@ -25,7 +24,7 @@ impl Open {
     const NONE: Self = Self { low: (f32::NAN, 0), high: (f32::NAN, 0) };
 
     fn add(&mut self, value: f32, number: u64) {
-        // Not a number is neither, and stands only where there is nothing else.
+        // NaN is neither, and is stored only if there is nothing else.
         if value < self.low.0 || self.low.0.is_nan() {
             self.low = (value, number);
         }
@@ -40,19 +39,19 @@ impl Open {
     }
 }
 
-/// What is known of a line in all samples.
+/// Summary of a line over all samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// Its value in the first sample.
     pub initial: f64,
-    /// Its least value, a difference where that is what is kept; not a number where it never was one.
+    /// Its smallest value, or difference if differences are stored; NaN if it never was a number.
     pub low: f64,
     /// Its largest.
     pub high: f64,
 }
 
 impl Extent {
-    /// How far it went.
+    /// Its range.
     #[must_use]
     pub fn range(&self) -> f64 {
         if self.low.is_nan() { 0.0 } else { self.high - self.low }
@@ -83,12 +82,12 @@ pub struct Curves {
 pub struct Drawn {
     /// \[s\].
     pub times: Vec<f64>,
-    /// For each line that was asked for its values.
+    /// Values of each requested line.
     pub lines: Vec<Vec<f32>>,
 }
 
 impl Curves {
-    /// No samples yet of so many; per line whether it is kept as differences from its first value.
+    /// Empty, for the given number of samples; per line whether it is stored as differences from its first value.
     #[must_use]
     pub fn new(deviations: Vec<bool>, planned: u64) -> Self {
         let most = (MOST_VALUES / deviations.len().max(1)).clamp(FEWEST_POINTS, MOST_POINTS) as u64;
@@ -155,13 +154,13 @@ impl Curves {
         self.taken
     }
 
-    /// What is known of each line.
+    /// Summary of each line.
     #[must_use]
     pub fn extents(&self) -> &[Extent] {
         &self.extents
     }
 
-    /// The chosen lines with at most so many points, or [`FEWEST_POINTS`], of the intervals that ended.
+    /// The chosen lines with at most the given number of points, or [`FEWEST_POINTS`], of the completed intervals.
     #[must_use]
     pub fn drawn(&self, chosen: &[usize], points: usize) -> Drawn {
         let blocks = self.blocks(points.max(FEWEST_POINTS));

@@ -1,7 +1,7 @@
-//! What the page draws from: the data that stand in it as JSON.
+//! Data of the page, embedded as JSON.
 //!
-//! Their names and meanings are a format that the page's scripts read; a change that they would
-//! misread counts [`FORMAT`] up. Numbers in bulk are packed; plain ones that are not finite are null.
+//! The page's scripts read this format; an incompatible change increments [`FORMAT`]. Large arrays are packed; plain
+//! numbers that are not finite are null.
 
 use crate::picture::Mechanism;
 use crate::picture::mechanism::Place;
@@ -19,11 +19,11 @@ pub const FORMAT: u32 = 1;
 pub struct Data {
     /// [`FORMAT`].
     pub format: u32,
-    /// What the page is about.
+    /// Subject of the page.
     pub kind: Kind,
     /// Its title.
     pub name: String,
-    /// What the scene is, free text; may be empty.
+    /// Description of the scene, free text; may be empty.
     pub description: String,
     /// One run; two of a comparison.
     pub runs: Vec<Run>,
@@ -38,7 +38,7 @@ pub struct Data {
     /// Shapes in which the mechanism swings; may be empty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub modes: Vec<Mode>,
-    /// What is read without scripts; it stands in the page as HTML instead.
+    /// Content readable without scripts; embedded as HTML instead.
     #[serde(skip)]
     pub text: Text,
 }
@@ -62,7 +62,7 @@ impl Data {
     }
 }
 
-/// What a page is about.
+/// Subject of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -77,28 +77,28 @@ pub enum Kind {
 pub struct Text {
     /// Why a run failed, a sentence each, without the last full stop.
     pub failures: Vec<String>,
-    /// What is probably not meant, likewise.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// The mechanism as SVG at t = 0; `None` where it would be too large.
     pub picture: Option<String>,
     /// The tables at the foot of the page, in order: summary, versions.
     pub tables: Vec<Table>,
-    /// Command lines that make it again, each with what it makes; empty for the only one.
+    /// Command lines that reproduce it, each with its result; empty for the only one.
     pub commands: Vec<(String, String)>,
     /// Paragraphs below the commands.
     pub notes: Vec<String>,
-    /// What a survey of the same scene came to, where one lies beside.
+    /// Result of a study of the same scene, if available.
     pub survey: Option<Survey>,
 }
 
-/// What a survey of a scene's accuracy against speed came to.
+/// Result of a study of accuracy against speed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Survey {
-    /// What to choose, a sentence without its last full stop and a command line each.
+    /// Choices: a sentence without its last full stop and a command line each.
     pub advice: Vec<(String, String)>,
     /// Its chart as SVG; `None` where it would be too large.
     pub chart: Option<String>,
-    /// The file beside the page with all of it.
+    /// The file with all results.
     pub page: String,
 }
 
@@ -107,9 +107,9 @@ pub struct Survey {
 pub struct Table {
     /// Its heading.
     pub title: String,
-    /// What stands above its columns, the first one's too; empty for none.
+    /// Column headings, including the first; empty for none.
     pub columns: Vec<String>,
-    /// Its rows, each begun by what it is about.
+    /// Its rows, each starting with its name.
     pub rows: Vec<Vec<String>>,
 }
 
@@ -117,9 +117,9 @@ pub struct Table {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Run {
-    /// What tells it from another on the same page; empty for the only one.
+    /// Its name among others on the same page; empty for the only one.
     pub label: String,
-    /// The mechanism at t = 0, its numbers rounded as far as nobody sees it.
+    /// The mechanism at t = 0, with numbers rounded below visibility.
     #[serde(serialize_with = "rounded")]
     pub mechanism: Option<Mechanism>,
     /// How it moved; `None` where nothing was seen of it.
@@ -172,43 +172,43 @@ pub struct Film {
     pub joint_springs: F32s,
     /// \[N, N·m, m\] frame by frame the values of the mechanism's forces.
     pub forces: F32s,
-    /// Points whose paths are worth a look.
+    /// Points with a drawn path.
     pub traces: Vec<Trace>,
 }
 
 /// A point whose path can be drawn.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Trace {
-    /// What it is called.
+    /// Name.
     pub name: String,
     /// Where it is.
     pub place: Place,
 }
 
-/// Where on the page a chart stands.
+/// Section of a chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Section {
-    /// What the plant's sensors see.
+    /// Sensors.
     Readouts,
-    /// What drives it.
+    /// Inputs.
     Inputs,
     /// Its energies.
     Energy,
     /// Deflections and forces of its joints.
     Joints,
-    /// Positions, turns and speeds of its bodies.
+    /// Positions, rotations and speeds of its bodies.
     Motion,
 }
 
 /// Curves in one pair of axes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Chart {
-    /// Where it stands.
+    /// Its section.
     pub section: Section,
     /// Its heading.
     pub title: String,
-    /// What its axis shows, before the unit.
+    /// Title of its axis, before the unit.
     pub quantity: String,
     /// The unit, without a prefix.
     pub unit: String,
@@ -223,7 +223,7 @@ pub struct Chart {
 /// A curve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
-    /// What it is called beside its neighbours; may be empty.
+    /// Its name among its neighbours; may be empty.
     pub name: String,
     /// One value per time of the run; none where it is still.
     #[serde(skip_serializing_if = "no_numbers")]
@@ -247,7 +247,7 @@ pub struct FirstDifference {
     pub time: f64,
     /// The step.
     pub step: u64,
-    /// What differs, in words.
+    /// The differences as text.
     pub text: String,
 }
 
@@ -256,7 +256,7 @@ pub struct FirstDifference {
 pub struct Mode {
     /// \[Hz\] its frequency; negative where it grows instead.
     pub frequency: f64,
-    /// Body by body the shift \[m\] in world axes and the turn \[rad\] about the body's axes, the largest 1.
+    /// Per body the translation \[m\] in world axes and the rotation \[rad\] about the body's axes, the largest 1.
     pub shape: F32s,
 }
 

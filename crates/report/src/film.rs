@@ -9,7 +9,7 @@ use crate::data::{Film, Trace};
 use crate::loading::Forces;
 use crate::packed::{F32s, F64s, I16s};
 
-/// \[bytes\] of base64 that a film takes at most, unless a frame is that large.
+/// \[bytes\] maximum base64 size of a film, unless a single frame is larger.
 const ROOM: usize = 400_000;
 /// Frames of a film at most, and those of a large mechanism that are kept whatever their size,
 /// within \[bytes\].
@@ -19,7 +19,7 @@ const MOST_ROOM: usize = 900_000;
 /// More springs of joints are left out of a film.
 const MOST_JOINT_SPRINGS: usize = 400;
 
-/// What is seen of a mechanism at a sample.
+/// Visible state of a mechanism at a sample.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// \[s\] its time.
@@ -40,13 +40,13 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// At most so many frames of so many samples.
+    /// At most the given number of frames for the given number of samples.
     #[must_use]
     pub fn new(samples: u64, frames: u64) -> Self {
         Self { samples: samples.max(1), frames: frames.clamp(2, samples.max(2)) }
     }
 
-    /// For runs of a mechanism with so many samples.
+    /// For runs of a mechanism with the given number of samples.
     #[must_use]
     pub fn of(mechanism: &Mechanism, samples: u64) -> Self {
         let words = |count: usize, bytes: usize| count * bytes;
@@ -67,7 +67,7 @@ impl Spread {
         if last <= frames {
             return true;
         }
-        // The frame whose sample is the nearest, and that sample, rounded up at halves.
+        // The frame with the nearest sample, and that sample, rounded up at halves.
         let sample = u128::from(sample);
         let frame = (2 * sample * frames + last) / (2 * last);
         (2 * frame * last + frames) / (2 * frames) == sample
@@ -80,7 +80,7 @@ pub fn has_joint_springs(mechanism: &Mechanism) -> bool {
     mechanism.joint_springs.len() <= MOST_JOINT_SPRINGS
 }
 
-/// Packs frames; `None` where there are none.
+/// Packs frames; `None` if there are none.
 #[must_use]
 pub fn packed(frames: &[Frame], mechanism: &Mechanism, traces: Vec<Trace>) -> Option<Film> {
     let first = frames.first()?;
@@ -121,7 +121,7 @@ pub fn packed(frames: &[Frame], mechanism: &Mechanism, traces: Vec<Trace>) -> Op
     })
 }
 
-/// A coordinate as a share of the way from `low` to `high`.
+/// A coordinate as a fraction between `low` and `high`.
 fn coordinate(value: f64, low: f64, high: f64) -> i16 {
     let way = high - low;
     if way <= 0.0 {
@@ -148,7 +148,7 @@ mod tests {
         }
     }
 
-    /// Positions within half a 65534th of the way, attitudes within a 20,000th of a radian.
+    /// Positions within half a 65534th of the range, attitudes within a 20,000th of a radian.
     #[test]
     fn poses_are_packed_within_their_rounding() {
         let mut random = 1_u64;
@@ -187,7 +187,7 @@ mod tests {
             assert!(2.0 * apart.sum::<f64>().sqrt() < 7e-5);
         }
         assert_eq!(packed(&[], &mechanism, Vec::new()), None);
-        // What is not a number moves nothing else.
+        // NaN does not affect other values.
         frames[3].poses[0].0[0] = f64::NAN;
         let film = packed(&frames, &mechanism, Vec::new()).unwrap();
         assert!(film.low[0].is_finite() && film.high[0].is_finite());

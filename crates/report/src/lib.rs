@@ -1,18 +1,18 @@
-//! What people look at of a run: one page that needs no other file.
+//! Reports of a run: one self-contained page.
 //!
-//! `(scene, samples) => data => page`. The modules in the order in which they stand on each other:
+//! `(scene, samples) => data => page`. The modules in dependency order:
 //!
 //! - [`output`]: files that appear complete or not at all, parts of drawings and pages.
 //! - [`picture`](mod@picture): a mechanism's geometry, and a picture of it.
 //! - [`packed`]: numbers as text.
-//! - [`data`]: what the page draws from.
-//! - [`measure`]: how large a mechanism and its joints are.
-//! - [`turn`]: how far a body has turned, without jumps.
-//! - [`loading`]: what pulls and pushes at a state.
+//! - [`data`]: data of the page.
+//! - [`measure`]: sizes of a mechanism and its joints.
+//! - [`turn`]: rotation of a body, without jumps.
+//! - [`loading`]: forces at a state.
 //! - [`film`]: frames at evenly spread samples.
 //! - [`curves`]: curves on one grid of times, thinned.
-//! - [`charts`]: which curves there are, and which of them are shown.
-//! - [`recording`]: a run as it goes on.
+//! - [`charts`]: curves of a run, and their selection.
+//! - [`recording`]: recording of a run.
 //! - [`page`]: the page.
 //! - [`gltf`]: the animation as a file for programs that show models.
 

@@ -1,4 +1,4 @@
-//! What pulls and pushes at a state: tensions, forces of joints, loads and inputs.
+//! Forces at a state: tensions, forces of joints, loads and inputs.
 //!
 //! `(scene, model that ran, state) => values in the order of the mechanism's parts`, in double precision.
 
@@ -23,7 +23,7 @@ enum Source {
     Nothing,
 }
 
-/// What a group is to the picture.
+/// Role of a group in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
     /// It belongs to a joint.
@@ -34,7 +34,7 @@ enum Part {
     Guide,
 }
 
-/// Looks up the forces of a run's states.
+/// Computes the forces of a run's states.
 #[derive(Clone, Debug)]
 pub struct Loading {
     model: SceneModel<F64>,
@@ -127,7 +127,7 @@ impl Loading {
     }
 }
 
-/// A place in the world \[m\].
+/// A point in the world \[m\].
 fn place(state: &State<SceneModel<F64>>, place: &Place) -> Vec3<f64> {
     let point = Vec3::from_f64(place.point);
     match place.body.and_then(|row| state.bodies.get(row)) {

@@ -1,7 +1,7 @@
-//! The page: data, and what is read without scripts, in one file.
+//! The page: data, and content readable without scripts, in one file.
 //!
-//! `data => HTML`. What people can read is written here; the animation and the curves are drawn by
-//! the page's scripts into sections that are empty until then. Nothing is fetched from anywhere.
+//! `data => HTML`. Text is written here; the page's scripts draw the animation and the curves into empty sections.
+//! Nothing is fetched.
 
 use std::fmt::Write as _;
 
@@ -38,7 +38,7 @@ pub const STAGE: &[&str] = &[
     include_str!("../web/stage.js"),
 ];
 
-/// Scripts of the page beside [`STAGE`], in order.
+/// Scripts of the page in addition to [`STAGE`], in order.
 const SCRIPTS: &[&str] = &[
     include_str!("../web/controls.js"),
     include_str!("../web/chart.js"),
@@ -120,7 +120,7 @@ pub fn json(data: &Data) -> String {
 /// Any data as such JSON.
 #[must_use]
 pub fn script_json(data: &impl serde::Serialize) -> String {
-    // Of what the data are made nothing refuses.
+    // Serialization of these data does not fail.
     let text = serde_json::to_string(data).unwrap_or_else(|_| "null".into());
     text.replace('<', "\\u003c")
 }

@@ -1,4 +1,4 @@
-//! A run as it goes on: what its page and its animation will show.
+//! Recording of a run for its page and its animation.
 //!
 //! `samples => film, curves`. Memory and page stay small whatever the run's length.
 
@@ -15,14 +15,14 @@ use crate::film::{Frame, Spread, packed};
 use crate::loading::Loading;
 use crate::turn::Turn;
 
-/// What is known at a sample.
+/// Data of a sample.
 #[derive(Clone, Copy)]
 pub struct Sample<'s> {
     /// \[s\] the time.
     pub time: f64,
     /// The state, widened exactly.
     pub state: &'s State<SceneModel<F64>>,
-    /// The scene's read-outs, one number per column; NaN where there is none.
+    /// The scene's sensors, one number per column; NaN if undefined.
     pub readings: &'s [f64],
     /// \[J\] its energy.
     pub energy: Energy<f64>,
@@ -30,7 +30,7 @@ pub struct Sample<'s> {
     pub extensions: &'s [f64],
 }
 
-/// Takes a run's samples in.
+/// Records a run's samples.
 #[derive(Clone)]
 pub struct Recording {
     mechanism: Mechanism,
@@ -59,7 +59,7 @@ struct Seen {
 /// A run that was recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recorded {
-    /// What its page draws from.
+    /// Data of its page.
     pub run: Run,
     /// The frames of its film in full precision.
     pub frames: Vec<Frame>,
@@ -93,7 +93,7 @@ impl Recording {
         })
     }
 
-    /// Takes the next sample.
+    /// Records the next sample.
     pub fn push(&mut self, sample: &Sample<'_>) {
         let number = self.curves.samples();
         self.loading.joints(sample.state, &mut self.joint_forces);
@@ -105,7 +105,7 @@ impl Recording {
             self.last = None;
             return;
         }
-        // What a run that fails ended with is seen, too.
+        // The last sample of a failed run is included.
         match &mut self.last {
             Some(last) => {
                 last.time = sample.time;
@@ -160,7 +160,7 @@ impl Recording {
         }
     }
 
-    /// The samples taken so far as a whole.
+    /// The recorded samples.
     #[must_use]
     pub fn finish(mut self) -> Recorded {
         if let Some(last) = self.last.take() {
@@ -190,8 +190,8 @@ impl Recording {
     }
 }
 
-/// The points that a scene reads out.
-/// Points of a scene whose paths are worth a look: its point read-outs.
+/// Point sensors of a scene.
+/// Points of a scene with a drawn path: its point sensors.
 #[must_use]
 pub fn traces(scene: &Scene) -> Vec<Trace> {
     use crate::picture::mechanism::Place;
@@ -285,7 +285,7 @@ readout = [
         let inputs = chart(&run, Section::Inputs, "push", "tension");
         let push = &inputs.lines[0].values.0;
         assert_eq!((push[49], push[50], push[100]), (0.0, 4.0, 4.0));
-        // A load acts within its window, an actuator is no force of its own.
+        // A load acts within its window; an actuator is not a separate force.
         assert_eq!(film.forces.0.len(), 101);
         assert_eq!([19, 20, 39, 40].map(|row| film.forces.0[row]), [0.0, 7.0, 7.0, 0.0]);
         let tip = chart(&run, Section::Readouts, "tip", "position");
@@ -316,7 +316,7 @@ readout = [
         assert_eq!(still(Section::Inputs, "push", "tension"), [false]);
     }
 
-    /// A run that fails, or that has no numbers, has what there was.
+    /// A run that fails, or has no finite numbers, keeps its samples.
     #[test]
     fn runs_may_end_early_or_not_begin() {
         for samples in [0, 1, 2, 1234] {
@@ -331,7 +331,7 @@ readout = [
         }
     }
 
-    /// Thousands of bodies: a small page that says what it leaves out.
+    /// Thousands of bodies: a small page that lists omissions.
     #[test]
     fn many_bodies_and_many_samples_stay_small() {
         let mut text = String::from("name = \"many\"\nduration = 1\nstep = 1e-2\nbody = [\n");

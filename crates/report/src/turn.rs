@@ -1,13 +1,13 @@
-//! How far a body has turned since t = 0, without jumps.
+//! Rotation of a body since t = 0, without jumps.
 //!
-//! `(orientation at t = 0, orientations) => turn \[rad\]`: a vector along the world's axis of the
-//! rotation, as long as its angle. From half a turn on, where that axis means little, the turns from
-//! sample to sample are added up instead: a crank counts on.
+//! `(orientation at t = 0, orientations) => rotation \[rad\]`: a vector along the rotation axis in world axes with the
+//! angle as length. From half a revolution on, where that axis is not meaningful, the rotations between samples are
+//! summed instead, as for a crank.
 
-/// \[rad\] beyond this turn is added up.
+/// \[rad\] beyond this angle rotations are summed.
 const LARGEST: f64 = 0.9 * std::f64::consts::PI;
 
-/// The turn of a body.
+/// The rotation of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
     /// Unit quaternions, scalar first, body → world.
@@ -25,7 +25,7 @@ impl Turn {
         Self { start, last: start, so_far: [0.0; 3], added_up: false }
     }
 
-    /// The turn \[rad\], world axes, up to the next orientation.
+    /// The rotation \[rad\], world axes, to the next orientation.
     pub fn to(&mut self, orientation: [f64; 4]) -> [f64; 3] {
         if self.added_up {
             let step = rotation(self.last, orientation);
@@ -42,7 +42,7 @@ impl Turn {
 /// The shortest rotation \[rad\] from one orientation to another, world axes.
 fn rotation(from: [f64; 4], to: [f64; 4]) -> [f64; 3] {
     let [a, b, c, d] = from;
-    // Of a quaternion and its opposite the nearer one.
+    // The nearer of a quaternion and its opposite.
     let way = if dot(&from, &to) < 0.0 { -1.0 } else { 1.0 };
     let [w, x, y, z] = to.map(|component| way * component);
     // to · conjugate(from)
@@ -77,7 +77,7 @@ mod tests {
     fn a_crank_counts_on_either_way() {
         for way in [1.0, -1.0] {
             let mut turn = Turn::new(about_z(0.3));
-            // Whole turns exactly among them.
+            // Including exact full revolutions.
             for part in 0..=400 {
                 let angle = way * f64::from(part) * TAU / 40.0;
                 let found = turn.to(about_z(0.3 + angle));
@@ -87,7 +87,7 @@ mod tests {
         }
     }
 
-    /// A crank whose axis wobbles by a milliradian does not seem to turn about other axes.
+    /// A crank whose axis wobbles by a milliradian shows no rotation about other axes.
     #[test]
     fn a_wobble_is_not_multiplied_by_the_turns() {
         let mut turn = Turn::new([1.0, 0.0, 0.0, 0.0]);
@@ -95,7 +95,7 @@ mod tests {
             let angle = f64::from(part) * 0.1;
             let [w, _, _, z] = about_z(angle);
             let tilt = 5e-4 * (1.3 * angle).sin();
-            // The turn about z, then a tilt about x.
+            // The rotation about z, then a tilt about x.
             let found = turn.to([w, tilt * w, -tilt * z, z]);
             assert!((found[2] - angle).abs() < 0.01, "{angle} {found:?}");
             assert!(found[0].abs() < 0.01 && found[1].abs() < 0.01, "{angle} {found:?}");
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn it_is_about_the_axes_of_the_world() {
-        // A body that lies on its side turns about the vertical.
+        // A body on its side rotates about the vertical.
         let side = [0.5_f64.sqrt(), 0.5_f64.sqrt(), 0.0, 0.0];
         let half = 0.1_f64;
         let [w, x] = [side[0] * half.cos(), side[1] * half.cos()];

@@ -1,4 +1,4 @@
-//! The names of bodies, and `between`: the two that an element joins.
+//! Names of bodies, and `between`, the two bodies that an element joins.
 
 use dbd_kernel::BodyIndex;
 
@@ -17,7 +17,7 @@ impl Kind for Between<'_> {
     type Output = Pair;
 
     fn expected(&self) -> String {
-        "the names of two different bodies, or of one and \"world\"".into()
+        "the names of two different bodies, or of one body and \"world\"".into()
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Pair, SceneError> {
@@ -40,7 +40,7 @@ impl Kind for Between<'_> {
 #[derive(Clone, Copy)]
 pub(crate) struct BodyName<'a> {
     pub(crate) assembly: &'a Assembly,
-    /// Whether the world will do.
+    /// Whether the world is allowed.
     pub(crate) world: bool,
 }
 
@@ -55,7 +55,7 @@ impl Kind for BodyName<'_> {
         let name = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
         match self.assembly.body(name) {
             Some(body) if self.world || !body.is_world() => Ok((name.to_owned(), body)),
-            Some(_) => Err(value.refuse("is the world, which nothing moves", &self.expected())),
+            Some(_) => Err(value.refuse("is the world, which is fixed", &self.expected())),
             None => Err(value
                 .refuse_with(&format!("names no body: \"{}\"", shortened(name)), self.help(name))),
         }
@@ -64,13 +64,13 @@ impl Kind for BodyName<'_> {
 
 impl BodyName<'_> {
     fn help(&self, name: &str) -> String {
-        /// More names than this say less.
+        /// Maximum number of names in a help text.
         const SHOWN: usize = 12;
         let world = self.world.then_some(WORLD);
         let known = || self.assembly.body_names().iter().map(String::as_str).chain(world);
         let mut help = match nearest(name, known()) {
-            Some(meant) => format!("did you mean \"{meant}\"? there are "),
-            None => "there are ".to_owned(),
+            Some(meant) => format!("did you mean \"{meant}\"? known bodies: "),
+            None => "known bodies: ".to_owned(),
         };
         let names: Vec<_> = known().take(SHOWN).map(|name| format!("\"{name}\"")).collect();
         help.push_str(&names.join(", "));

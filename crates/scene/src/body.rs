@@ -1,8 +1,7 @@
 //! `[[body]]`: mass, principal inertia and state at t = 0.
 //!
-//! `tables => bodies in the assembly, places of the points`. A body's pose is given in the world, in the
-//! frame of another body, or by the points between which it lies; its inertia as moments, as a tensor
-//! or by a shape.
+//! `tables => bodies in the assembly, positions of the points`. A body's pose is given in the world, in the frame of
+//! another body, or by the two points of a link; its inertia as moments, as a tensor or by a shape.
 
 use dbd_kernel::{Body, BodyState, F64, Quaternion, Vec3};
 
@@ -33,18 +32,17 @@ pub(crate) const KEYS: &[&str] = &[
 /// The keys of a shape that does not belong to a link, besides those of its section.
 pub(crate) const SHAPE: &[&str] = &["type", "along", "length"];
 
-/// A body that was read.
+/// A body as read.
 struct Read {
     body: Body<f64>,
     state: BodyState<F64>,
-    /// From its principal axes to those that it is written in.
+    /// Rotation from its principal axes to its given axes.
     turn: Option<Quaternion<f64>>,
     ends: Vec<links::End>,
     derived: Option<DerivedBody>,
 }
 
-/// Reads all points and bodies; adds the bodies in scene order. Says what came of those whose numbers
-/// are not written.
+/// Reads all points and bodies; adds the bodies in scene order. Returns the bodies whose mass or inertia is derived.
 pub(crate) fn read_all(
     root: &Table<'_>,
     assembly: &mut Assembly,
@@ -90,9 +88,9 @@ pub(crate) fn read_all(
 fn named<'t>(root: &Table<'t>) -> Result<Vec<(String, Table<'t>)>, SceneError> {
     let tables = root.list("body")?;
     if tables.is_empty() {
-        let help = "a scene has at least one [[body]] with a name, a mass and an inertia";
+        let help = "add at least one [[body]] with a name, a mass and an inertia";
         return Err(match root.value("body") {
-            Some(value) => value.refuse_with("holds no body", help),
+            Some(value) => value.refuse_with("is empty", help),
             None => root.refuse("has no bodies", help),
         });
     }
@@ -102,7 +100,7 @@ fn named<'t>(root: &Table<'t>) -> Result<Vec<(String, Table<'t>)>, SceneError> {
         table.only(&[KEYS])?;
         let name = names.read(&table, "body", ())?;
         if name == WORLD {
-            let help = "the world is there without being declared; a body has another name";
+            let help = "the world is predefined; give the body another name";
             return Err(table.refuse_value("name", "is \"world\"", help));
         }
         named.push((name, table));
@@ -111,7 +109,7 @@ fn named<'t>(root: &Table<'t>) -> Result<Vec<(String, Table<'t>)>, SceneError> {
 }
 
 impl Read {
-    /// Its written axes at its centre of mass, and how they move.
+    /// The frame of its given axes at its centre of mass, with its motion.
     fn frame(&self) -> Frame {
         let state = &self.state;
         let spin_w = state.orientation.rotation().to_world(state.angular_velocity);
@@ -129,12 +127,12 @@ impl Read {
     }
 }
 
-/// A body's pose and motion, in the axes that it is written in.
+/// A body's pose and motion in its given axes.
 struct Pose {
     position: Vec3<f64>,
     orientation: [f64; 4],
     velocity: Vec3<f64>,
-    /// Written axes.
+    /// In the given axes.
     angular_velocity: Vec3<f64>,
 }
 
@@ -147,7 +145,7 @@ fn read(
     let (link, section) = match table.value("link") {
         Some(value) => {
             let link =
-                value.table("{ from = \"A\", to = \"B\" }, the points between which it lies")?;
+                value.table("{ from = \"A\", to = \"B\" }, the points that the link connects")?;
             let (link, section) = read_link(root, table, link, places)?;
             (Some(link), Some(section))
         }
@@ -197,8 +195,8 @@ fn read_link(
 ) -> Result<(Link, Section), SceneError> {
     for key in ["position", "orientation", "frame", "shape"] {
         if table.has(key) {
-            let help = "a link gives position, orientation and shape; its `centre`, `along`, \
-                        `reference` and `shape` change them";
+            let help = "a link defines position, orientation and shape; use its `centre`, `along`, \
+                        `reference` and `shape` to change them";
             return Err(table.refuse_key(key, "contradicts `link`", help));
         }
     }
@@ -230,7 +228,7 @@ fn shape(root: &Table<'_>, table: &Table<'_>) -> Result<Option<Section>, SceneEr
     inertia::section(&shape, "type", others, (length.into(), along), table.has("mass")).map(Some)
 }
 
-/// Mass and inertia: what stands in the body's own table goes before what its link or shape says.
+/// Mass and inertia: keys of the body's own table take precedence over its link or shape.
 fn mass_and_inertia_of(
     table: &Table<'_>,
     section: Option<&Section>,
@@ -246,9 +244,11 @@ fn mass_and_inertia_of(
             let moments = section.moments.map(|moment| (moment * mass).nearest());
             if !moments.iter().all(|moment| moment.is_normal()) {
                 let [x, y, z] = moments;
-                let problem =
-                    format!("comes to moments of inertia of {x:e}, {y:e} and {z:e} kg·m²");
-                return Err(table.refuse(&problem, "sizes and a mass that double precision holds"));
+                let problem = format!("has moments of inertia of {x:e}, {y:e} and {z:e} kg·m²");
+                return Err(table.refuse(
+                    &problem,
+                    "use sizes and a mass within the range of double precision",
+                ));
             }
             Ok((mass.nearest(), Inertia { moments, turn: None }))
         }
@@ -256,7 +256,7 @@ fn mass_and_inertia_of(
     }
 }
 
-/// Where a body is and how it moves, from its points or its own numbers, in the world or in a frame.
+/// Pose and motion of a body, from its points or its own numbers, in the world or in a frame.
 fn pose(table: &Table<'_>, link: Option<&Link>, places: &Places) -> Result<Pose, SceneError> {
     let frame = table.value("frame").map(|value| points::body_frame(&value, places)).transpose()?;
     let (position, orientation) = match link {
@@ -268,7 +268,7 @@ fn pose(table: &Table<'_>, link: Option<&Link>, places: &Places) -> Result<Pose,
             let own = own.unwrap_or([1.0, 0.0, 0.0, 0.0]);
             match &frame {
                 Some(frame) => {
-                    // A name is a place in the world, in whichever frame it is said.
+                    // A named point is a position in the world in any frame.
                     let is_in_frame = given == Some(true);
                     let place = if is_in_frame { frame.place(place).unsigned() } else { place };
                     (place, turned(frame.orientation, own))
@@ -297,7 +297,7 @@ fn pose(table: &Table<'_>, link: Option<&Link>, places: &Places) -> Result<Pose,
     Ok(pose)
 }
 
-/// An orientation in a frame, as one in the world; either alone keeps its bits.
+/// Transforms an orientation from a frame to the world; the identity of either keeps the bits of the other.
 fn turned(frame: [f64; 4], own: [f64; 4]) -> [f64; 4] {
     const UNTURNED: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
     if own == UNTURNED {
@@ -310,7 +310,7 @@ fn turned(frame: [f64; 4], own: [f64; 4]) -> [f64; 4] {
     }
 }
 
-/// Reads `mass` and `inertia` about axes that are the principal ones.
+/// Reads `mass` and `inertia` about the principal axes.
 pub(crate) fn mass_and_inertia(table: &Table<'_>) -> Result<Body<f64>, SceneError> {
     let mass = table.required("mass", Number::positive("kg"))?;
     Ok(Body::from_f64(mass, table.required("inertia", PrincipalInertia)?))

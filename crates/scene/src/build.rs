@@ -2,8 +2,8 @@
 //!
 //! `scene file => OUT_DIR/STEM.rs, lines for cargo`. `build.rs` is
 //! `fn main() { dbd_scene::build("scenes/four-bar.toml") }`, the crate has
-//! `include!(concat!(env!("OUT_DIR"), "/four-bar.rs"))` in a module of its own and `dbd-kernel`
-//! among its dependencies. What is in the source: [`export::source`](crate::export::source).
+//! `include!(concat!(env!("OUT_DIR"), "/four-bar.rs"))` in a module and `dbd-kernel` among its dependencies. Contents
+//! of the source: [`export::source`](crate::export::source).
 
 use std::fmt::{self, Display};
 use std::io;
@@ -22,19 +22,19 @@ use crate::scene::Scene;
 use crate::single::slow_start;
 use crate::time::{Time, TimeError, display};
 
-/// The share of a stability limit at t = 0 that leaves room for a motion.
+/// Fraction of the stability limit at t = 0 that allows for its change during motion.
 const MARGIN: f64 = 0.85;
 
 /// Writes the source of a scene in single precision, stepped by leapfrog:
 /// `scenes/my.toml` becomes `OUT_DIR/my.rs`. The path is relative to the crate's `Cargo.toml`.
 ///
-/// What is wrong with the scene ends the build script with its place and with what would be right;
-/// what is probably not meant is a warning of cargo's. [`Build`] has the options.
+/// An error in the scene ends the build script with its position and a remedy; probable mistakes become warnings of
+/// cargo. [`Build`] has options.
 pub fn build(scene: impl AsRef<Path>) {
     Build::scene(scene).write();
 }
 
-/// A build script's call with options.
+/// Options of a build script.
 ///
 /// ```no_run
 /// dbd_scene::Build::scene("scenes/four-bar.toml")
@@ -58,27 +58,27 @@ pub struct Build {
     changes: Vec<String>,
 }
 
-/// What a build script makes of a scene.
+/// The result of a build script.
 #[derive(Clone, Debug)]
 pub struct Built {
     /// The scene.
     pub scene: Scene,
     /// The Rust source.
     pub source: String,
-    /// What is probably not meant, each on a line of its own with its place.
+    /// Probable mistakes, one per line with its position.
     pub warnings: Vec<String>,
 }
 
-/// Why nothing was written. Displayed on one line: place, what is wrong, what would be right.
+/// Reasons why nothing was written. Displayed on one line: position, problem, remedy.
 #[derive(Debug)]
 pub enum BuildError {
-    /// The scene cannot be read or is refused.
+    /// The scene cannot be read or is invalid.
     Scene(SceneError),
-    /// An option of the build script is not right; what it is and what would be right.
+    /// An option of the build script is invalid: problem and remedy.
     Option(String, String),
-    /// No step divides both the scene's duration and its sampling interval; the scene's file.
+    /// No step divides both the duration and the sampling interval of the scene in this file.
     NoStep(String),
-    /// A precision cannot hold what an input is given; the scene's file.
+    /// An input of the scene in this file is out of the range of a precision.
     Input(String, UnfitInput),
     /// The source cannot be written.
     Write(PathBuf, io::Error),
@@ -101,27 +101,26 @@ impl Build {
         }
     }
 
-    /// Makes a law of one's own known; `path` is that of its type, which the crate that is built depends on, too:
+    /// Registers a user-defined law; `path` is the path of its type, on which the built crate must also depend:
     /// `.law::<my_laws::Drag>("my_laws::Drag")`.
     pub fn law<L: Law>(self, path: &str) -> Self {
         crate::laws::register::<L>(path);
         self
     }
 
-    /// A value that is another than in the file, `PATH=VALUE` as of `host-sim run --set`; called twice,
-    /// both.
+    /// Changes a value of the file, `PATH=VALUE` as in `host-sim run --set`. May be called repeatedly.
     pub fn set(mut self, change: &str) -> Self {
         self.changes.push(change.to_owned());
         self
     }
 
-    /// `f32`, `f64` or `fixed`; called twice, both. Without it `f32`.
+    /// `f32`, `f64` or `fixed`. May be called repeatedly. Default: `f32`.
     pub fn precision(mut self, name: &str) -> Self {
         self.precisions.push(name.to_owned());
         self
     }
 
-    /// The scheme by its name, as on the command line. Without it `leapfrog`.
+    /// The scheme by its name, as on the command line. Default: `leapfrog`.
     pub fn scheme(mut self, name: &str) -> Self {
         self.scheme = Some(name.to_owned());
         self
@@ -133,56 +132,54 @@ impl Build {
         self
     }
 
-    /// ρ∞ of generalized-alpha, 0 to 0.8: what is left per step of a vibration that it does not resolve.
-    /// Without it 0.5.
+    /// ρ∞ of generalized-alpha, 0 to 0.8: the amplitude factor per step of unresolved vibration. Default: 0.5.
     pub fn rho(mut self, rho: f64) -> Self {
         self.rho = Some(rho);
         self
     }
 
-    /// `sweeps`, `joint-wise` or `explicit`, for schemes that have all. Without it the scheme's own.
+    /// `sweeps`, `joint-wise` or `explicit`, for schemes that support all. Default: that of the scheme.
     pub fn damping(mut self, name: &str) -> Self {
         self.damping = Some(name.to_owned());
         self
     }
 
-    /// The step: seconds, or a text with a unit, `"20us"`. Without it the scene's, else the one that
-    /// `host-sim run` takes.
+    /// The step: seconds, or a text with a unit, `"20us"`. Default: that of the scene, otherwise the default of
+    /// `host-sim run`.
     pub fn step(mut self, step: impl Display) -> Self {
         self.step = Some(step.to_string());
         self
     }
 
-    /// Leaves out the tables that drive inputs: the program drives all of them. Each begins with the
-    /// first value of its table.
+    /// Omits the tables that drive inputs: the program sets all inputs. Each starts with the first value of its
+    /// table.
     pub fn without_tables(mut self) -> Self {
         self.without_tables = true;
         self
     }
 
-    /// The file's name in `OUT_DIR`, where a scene is written more than once. Without it the
-    /// scene file's, ending in `.rs`.
+    /// File name in `OUT_DIR`, for scenes that are written more than once. Default: the name of the scene file with
+    /// `.rs`.
     pub fn output(mut self, name: &str) -> Self {
         self.output = Some(name.to_owned());
         self
     }
 
-    /// Writes the source into `OUT_DIR`, tells cargo, and ends the build script with exit code 1 where
-    /// something is wrong.
+    /// Writes the source into `OUT_DIR`, prints the lines for cargo, and exits with code 1 on errors.
     pub fn write(&self) {
         let folder = std::env::var_os("OUT_DIR").map(PathBuf::from);
-        // What cargo does not read it does not need.
+        // Failures to write to cargo are ignored.
         if !self.write_into(folder.as_deref(), &mut io::stdout()).unwrap_or(true) {
             std::process::exit(1)
         }
     }
 
-    /// Writes the source into a folder and lines for cargo; `false` where something is wrong.
+    /// Writes the source into a folder and lines for cargo; `false` on errors.
     fn write_into(&self, folder: Option<&Path>, cargo: &mut dyn io::Write) -> io::Result<bool> {
         writeln!(cargo, "{}", self.watched())?;
         let written = self.source().and_then(|built| {
             let Some(folder) = folder else {
-                let help = "cargo sets it for a build script; elsewhere: host-sim export";
+                let help = "cargo sets it for build scripts; use host-sim export elsewhere";
                 return Err(BuildError::Option("OUT_DIR is not set".into(), help.into()));
             };
             let file = folder.join(self.file_name());
@@ -202,7 +199,7 @@ impl Build {
         Ok(written.is_ok())
     }
 
-    /// The line that tells cargo what the source is made from.
+    /// The line that tells cargo on which file the source depends.
     #[must_use]
     pub fn watched(&self) -> String {
         format!("cargo::rerun-if-changed={}", self.scene.display())
@@ -217,8 +214,7 @@ impl Build {
 
     /// The source, without writing it.
     ///
-    /// # Errors
-    /// [`BuildError`], but for the one of writing.
+    /// # Errors [`BuildError`], except for write errors.
     pub fn source(&self) -> Result<Built, BuildError> {
         let precisions = self.precisions()?;
         let scheme = self.scheme.as_deref().unwrap_or(ExportScheme::default().name());
@@ -229,7 +225,7 @@ impl Build {
             })
             .map_err(BuildError::scheme)?;
         let asked = self.step.as_deref().map(step).transpose()?;
-        // As it was given, in messages too, wherever cargo runs the script.
+        // Messages show the path as given, independent of the working directory.
         let called = self.scene.display().to_string();
         let text = crate::file::read_text(self.path())
             .map_err(|reason| SceneError::Unreadable { file: called.clone(), reason });
@@ -265,8 +261,8 @@ impl Build {
         let limit = scheme.stability_limit();
         if bound * step > limit {
             warnings.push(format!(
-                "{called}: the step of {} may be beyond what {} bears: ω·h = {:.3} with the bound of the \
-                 highest frequency at t = 0, the limit is {limit:.4}; a step of at most {}",
+                "{called}: the step of {} may be unstable with {}: ω·h = {:.3} with the bound of the \
+                 highest frequency at t = 0, the limit is {limit:.4}; use a step of at most {}",
                 display(step),
                 scheme.name(),
                 bound * step,
@@ -280,20 +276,20 @@ impl Build {
         for precision in &precisions {
             let name = precision.name();
             if scene.planar.is_some() && !precision.has_planes() {
-                let message = format!("{called} is planar, and {name} has no plane");
-                return Err(BuildError::Option(message, "f32, or without `planar`".into()));
+                let message = format!("{called} is planar, but {name} has no planar model");
+                return Err(BuildError::Option(message, "use f32, or remove `planar`".into()));
             }
             let most = scheme.longest(*precision, bound);
             if step > most {
                 let message = format!(
-                    "{called}: joints as stiff as these take a step of at most {} with {} in {name}, not of {}",
+                    "{called}: the stiffness of the joints limits the step to {} with {} in {name}; it is {}",
                     display(crate::time::at_most(most)),
                     scheme.name(),
                     display(step),
                 );
                 return Err(BuildError::Option(
                     message,
-                    "a shorter step, softer joints, or f64".into(),
+                    "use a shorter step, softer joints or f64".into(),
                 ));
             }
             let held = match precision {
@@ -309,8 +305,8 @@ impl Build {
             };
             let single = step as f32;
             if !(single > 0.0 && single.is_finite()) {
-                let message = format!("{name} does not hold the step of {}", display(step));
-                return Err(BuildError::Option(message, "a longer step, or f64".into()));
+                let message = format!("{name} cannot represent the step of {}", display(step));
+                return Err(BuildError::Option(message, "use a longer step or f64".into()));
             }
             held.map_err(|error| BuildError::Input(called.clone(), error))?;
         }
@@ -327,9 +323,9 @@ impl Build {
         let mut precisions = Vec::new();
         for name in &self.precisions {
             let Some(one) = ExportPrecision::ALL.into_iter().find(|one| one.name() == name) else {
-                let message = format!("there is no precision \"{name}\"");
+                let message = format!("unknown precision \"{name}\"");
                 let names = ExportPrecision::ALL.map(ExportPrecision::name);
-                let help = format!("one of {}", names.join(", "));
+                let help = format!("expected one of {}", names.join(", "));
                 return Err(BuildError::Option(message, help));
             };
             if !precisions.contains(&one) {
@@ -343,10 +339,10 @@ impl Build {
     }
 }
 
-/// \[s\] a step as it was given.
+/// Parses a step to seconds.
 fn step(text: &str) -> Result<f64, BuildError> {
     let wrong = |error: TimeError| {
-        BuildError::Option(format!("the step \"{text}\" is none"), error.to_string())
+        BuildError::Option(format!("\"{text}\" is not a valid step"), error.to_string())
     };
     text.parse::<Time>().map(Time::seconds).map_err(wrong)
 }
@@ -356,14 +352,14 @@ impl BuildError {
         Self::Option(error.to_string(), error.help().to_owned())
     }
 
-    /// The line that fails a build and that cargo shows.
+    /// The line with which cargo reports the error and fails the build.
     #[must_use]
     pub fn line(&self) -> String {
         format!("cargo::error={}", on_one_line(&self.to_string()))
     }
 }
 
-/// A message as cargo takes it.
+/// A message on one line, as cargo requires.
 fn on_one_line(text: &str) -> String {
     text.replace(['\n', '\r'], " ")
 }
@@ -372,7 +368,7 @@ impl Display for BuildError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Scene(error) => {
-                // The message of a file that cannot be read names it itself.
+                // The message of an unreadable file includes the file name.
                 if let (Some(line), Some(column)) = (error.line(), error.column()) {
                     write!(f, "{}:{line}:{column}: ", error.file())?;
                 }
@@ -381,10 +377,10 @@ impl Display for BuildError {
             Self::Option(message, help) => write!(f, "{message} ({help})"),
             Self::NoStep(file) => write!(
                 f,
-                "{file}: no step divides both `duration` and `every` (another `every`, or a `step`)"
+                "{file}: no step divides both `duration` and `every` (give another `every` or a `step`)"
             ),
             Self::Input(file, error) => {
-                write!(f, "{file}:{}: {error} (a smaller value, or f64)", error.line)
+                write!(f, "{file}:{}: {error} (use a smaller value or f64)", error.line)
             }
             Self::Write(file, reason) => write!(f, "cannot write {}: {reason}", file.display()),
         }

@@ -1,4 +1,4 @@
-//! The columns of a trace: each its own.
+//! The columns of a trace, each with a unique name.
 //!
 //! `(bodies, read-outs) => names in order`: time, the bodies, the energies, the read-outs; and back.
 
@@ -14,7 +14,7 @@ pub const ENERGY_COLUMNS: [&str; 3] = ["energy.kinetic", "energy.potential", "en
 /// The first column.
 pub const TIME_COLUMN: &str = "time";
 
-/// What the columns of a trace are of: [`Scene::columns`](crate::Scene::columns), read back.
+/// Contents of the columns of a trace, read back from [`Scene::columns`](crate::Scene::columns).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TraceColumns {
     /// Names of the bodies in order.
@@ -23,25 +23,24 @@ pub struct TraceColumns {
     pub readouts: Vec<String>,
 }
 
-/// A name that stands where a trace has another column.
+/// An unexpected name of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnlikeColumn {
-    /// Its place, from 0; that behind the last name where one is missing.
+    /// Its index, from 0; the number of names if one is missing.
     pub place: usize,
-    /// What is wrong.
+    /// The problem.
     pub problem: String,
 }
 
 impl TraceColumns {
     /// Reads the names of a trace's columns.
     ///
-    /// # Errors
-    /// The first name that is not in its place, or is there twice.
+    /// # Errors The first unexpected or duplicate name.
     pub fn of(names: &[String]) -> Result<Self, UnlikeColumn> {
         let expect = |place: usize, expected: &str| match names.get(place) {
             Some(name) if name == expected => Ok(()),
             Some(name) => {
-                let problem = format!("`{name}` stands where a trace has `{expected}`");
+                let problem = format!("found `{name}`, expected `{expected}`");
                 Err(UnlikeColumn { place, problem })
             }
             None => Err(UnlikeColumn { place, problem: format!("`{expected}` is missing") }),
@@ -50,7 +49,7 @@ impl TraceColumns {
         let (mut bodies, mut place) = (Vec::new(), 1);
         while names.get(place).is_some_and(|name| name != ENERGY_COLUMNS[0]) {
             let Some(body) = names[place].strip_suffix(BODY_COLUMNS[0]) else {
-                // The error says what would be right.
+                // The error states the expected name.
                 expect(place, ENERGY_COLUMNS[0])?;
                 break;
             };
@@ -65,7 +64,7 @@ impl TraceColumns {
         }
         let mut seen = BTreeSet::new();
         if let Some(place) = names.iter().position(|name| !seen.insert(name)) {
-            let problem = format!("`{}` stands there twice", names[place]);
+            let problem = format!("duplicate column `{}`", names[place]);
             return Err(UnlikeColumn { place, problem });
         }
         Ok(Self { bodies, readouts: names[place + ENERGY_COLUMNS.len()..].to_vec() })
@@ -77,7 +76,7 @@ pub(crate) fn of_body(name: &str) -> impl Iterator<Item = String> + use<'_> {
     BODY_COLUMNS.iter().map(move |end| format!("{name}{end}"))
 }
 
-/// The columns that are taken, and by what.
+/// Used columns and their owners.
 pub(crate) struct Taken(BTreeMap<String, String>);
 
 impl Taken {
@@ -92,10 +91,9 @@ impl Taken {
         Self(taken)
     }
 
-    /// Takes a column for `owner`.
+    /// Reserves a column for `owner`.
     ///
-    /// # Errors
-    /// Who has it already.
+    /// # Errors The present owner, if it is used.
     pub(crate) fn take(&mut self, column: String, owner: &str) -> Result<(), &str> {
         use std::collections::btree_map::Entry;
         match self.0.entry(column) {
@@ -122,20 +120,20 @@ mod tests {
 
     #[test]
     fn columns_are_read_back() {
-        // A body may be called as an energy is, or as a column of another.
+        // A body may have the name of an energy or of a column of another body.
         let of = ["energy.kinetic", "a", "a.x"].map(body).join(" ");
         let energies = ENERGY_COLUMNS.join(" ");
         let columns = TraceColumns::of(&names(&format!("time {of} {energies} angle p.x p.y")));
         let bodies = names("energy.kinetic a a.x");
         assert_eq!(columns, Ok(TraceColumns { bodies, readouts: names("angle p.x p.y") }));
         for (text, place, problem) in [
-            ("", 0, "`` stands where a trace has `time`"),
-            ("t", 0, "`t` stands where a trace has `time`"),
+            ("", 0, "found ``, expected `time`"),
+            ("t", 0, "found `t`, expected `time`"),
             ("time", 1, "`energy.kinetic` is missing"),
-            ("time b.y", 1, "`b.y` stands where a trace has `energy.kinetic`"),
-            ("time b.x b.z", 2, "`b.z` stands where a trace has `b.y`"),
-            ("time energy.kinetic energy.total", 2, "`energy.total` stands where"),
-            ("time energy.kinetic energy.potential energy.total a a", 5, "`a` stands there twice"),
+            ("time b.y", 1, "found `b.y`, expected `energy.kinetic`"),
+            ("time b.x b.z", 2, "found `b.z`, expected `b.y`"),
+            ("time energy.kinetic energy.total", 2, "found `energy.total`, expected"),
+            ("time energy.kinetic energy.potential energy.total a a", 5, "duplicate column `a`"),
         ] {
             let wrong = TraceColumns::of(&names(text)).unwrap_err();
             assert_eq!(wrong.place, place, "{text}");

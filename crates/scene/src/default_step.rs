@@ -1,28 +1,27 @@
-//! The step of a scene that gives none, the same for runs, sweeps, studies, FMUs, Python, exported source,
-//! build scripts and new projects.
+//! The default step of a scene without one, the same for runs, sweeps, studies, FMUs, Python, exported source, build
+//! scripts and new projects.
 //!
-//! `(highest frequency, fastest spin, what a method bears, duration) => limit`, of which
-//! [`Span::round_step`](crate::fitting::Span::round_step) makes a step.
+//! `(highest frequency, largest angular velocity, limits of a method, duration) => limit`, which
+//! [`Span::round_step`](crate::fitting::Span::round_step) rounds to a step.
 
 use dbd_kernel::State;
 use dbd_kernel::elements::source::SourceLaw;
 
 use crate::runtime::SceneModel;
 
-/// Where nothing vibrates, a run takes this many steps.
+/// Number of steps of a run without vibration.
 const STEPS_WITHOUT_SPRINGS: f64 = 1000.0;
 
-/// What a default step keeps of the longest one that is not refused: frequencies rise along a motion.
+/// Default step over the longest accepted step: frequencies may rise during motion.
 const MARGIN: f64 = 0.5;
 
-/// \[rad\] the largest turn of a body in a step: beyond it the free rotor's splitting loses energy
-/// and accuracy.
+/// \[rad\] largest rotation of a body in a step: beyond it the splitting of the free rotor loses energy and accuracy.
 pub const LARGEST_TURN: f64 = 0.1;
 
-/// How many steps a default step leaves in the shortest period of a sine or a repeated table.
+/// Number of default steps in the shortest period of a sine or a periodic table.
 pub const STEPS_PER_PERIOD: f64 = 40.0;
 
-/// \[s\] The shortest period of a sine or a repeated table of a model; infinite without one.
+/// \[s\] The shortest period of a sine or a periodic table of a model; infinite without one.
 #[must_use]
 pub fn shortest_period(model: &SceneModel<dbd_kernel::F64>) -> f64 {
     let period = |law: &SourceLaw<dbd_kernel::F64>| match *law {
@@ -32,10 +31,10 @@ pub fn shortest_period(model: &SceneModel<dbd_kernel::F64>) -> f64 {
     model.sources.iter().map(|source| period(&source.law)).fold(f64::INFINITY, f64::min)
 }
 
-/// What a method bears.
+/// Limits of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bears {
-    /// \[1\] the largest ω·h at which it is stable; infinite where any is borne.
+    /// \[1\] the largest ω·h at which it is stable; infinite if unconditionally stable.
     pub stability: f64,
     /// \[1\] the largest ω·h that its matrix resolves in its precision, if it has one.
     pub vibration: Option<f64>,
@@ -55,9 +54,9 @@ pub fn fastest_spin(state: &State<SceneModel<dbd_kernel::F64>>) -> (f64, usize) 
     (spin, fastest)
 }
 
-/// \[s\] The longest default step: half the stability limit of leapfrog for the angular frequency `bound`
-/// \[rad/s\]; where any stiffness is borne, a thousandth of the duration \[s\] or half of what the matrix
-/// resolves. No body turns by more than [`LARGEST_TURN`] in it, `spin` \[rad/s\] the fastest.
+/// \[s\] The longest default step: half the stability limit of leapfrog for the angular frequency `bound` \[rad/s\];
+/// for unconditionally stable methods a thousandth of the duration \[s\] or half of what the matrix resolves. No body
+/// rotates by more than [`LARGEST_TURN`] in it; `spin` \[rad/s\] is the largest angular velocity.
 #[must_use]
 pub fn longest(bound: f64, spin: f64, bears: Bears, duration: f64) -> f64 {
     let free = duration / STEPS_WITHOUT_SPRINGS;

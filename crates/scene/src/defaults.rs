@@ -1,8 +1,8 @@
-//! `[defaults]`: keys that each table of a kind has unless it gives its own.
+//! `[defaults]`: default values of keys for each kind of table.
 //!
-//! `[defaults.joint], [defaults.revolute] => refusal of a kind or a key that there is not`. A table finds
-//! them by itself; those of a type of joint go before those of all joints. Their values are read, and
-//! refused, with the tables that take them.
+//! `[defaults.joint], [defaults.revolute] => error for an unknown kind or key`. Tables look up their defaults
+//! themselves; those of a type of joint take precedence over those of all joints. Values are read and checked with
+//! the tables that use them.
 
 use crate::error::SceneError;
 use crate::text::Table;
@@ -12,7 +12,7 @@ use crate::{
 };
 use crate::{torsion_spring, tsda};
 
-/// What names a thing or places it in a list is its own.
+/// Keys without a default: they identify a table.
 pub(crate) const OWN: &[&str] = &["name"];
 
 /// The kinds that have defaults, each with all keys of its tables.
@@ -34,10 +34,11 @@ pub(crate) fn kinds() -> Vec<(&'static str, Vec<&'static [&'static str]>)> {
     kinds
 }
 
-/// Refuses defaults that no table takes.
+/// Rejects defaults that no table has.
 pub(crate) fn check(root: &Table<'_>) -> Result<(), SceneError> {
     let Some(value) = root.value("defaults") else { return Ok(()) };
-    let defaults = value.table("tables of keys by kind: [defaults.joint]")?.called("[defaults]");
+    let defaults =
+        value.table("tables of keys by kind, such as [defaults.joint]")?.called("[defaults]");
     let kinds = kinds();
     let names: Vec<&'static str> = kinds.iter().map(|(name, _)| *name).collect();
     defaults.only(&[&names])?;

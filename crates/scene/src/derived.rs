@@ -1,4 +1,4 @@
-//! What came of a body whose numbers are not written: of a link, a shape, a tensor with products.
+//! Mass and inertia derived from a link, a shape or a tensor with products of inertia.
 
 use crate::solid::Solid;
 
@@ -7,9 +7,9 @@ use crate::solid::Solid;
 pub struct DerivedBody {
     /// Its name.
     pub name: String,
-    /// The shape that its inertia is of, e.g. `rod`; `None` where that is given.
+    /// The shape that determines its inertia, e.g. `rod`; `None` if the inertia is given.
     pub shape: Option<&'static str>,
-    /// The solid that its `shape` is; `None` of a rod without thickness, and where the inertia is given.
+    /// The solid of its `shape`; `None` for a rod without thickness or a given inertia.
     pub solid: Option<Solid>,
     /// \[m\] between the ends of a link.
     pub length: Option<f64>,
@@ -17,6 +17,6 @@ pub struct DerivedBody {
     pub mass: f64,
     /// \[kg·m²\] principal inertia.
     pub inertia: [f64; 3],
-    /// \[rad\] by how much its principal axes are turned against those that it is written in.
+    /// \[rad\] rotation of its principal axes from its given axes.
     pub turned: f64,
 }

@@ -4,11 +4,10 @@
 
 use dbd_kernel::Vec3;
 
-/// The vector at unit length; `None` where it has no direction to speak of: 0, or so short or
-/// long that its square is lost.
+/// The vector at unit length; `None` if it is 0 or its square underflows or overflows.
 pub(crate) fn unit(v: Vec3<f64>) -> Option<Vec3<f64>> {
     let square = v.dot(v);
-    // Between these the square is neither rounded off nor infinite.
+    // Between these bounds the square neither underflows nor overflows.
     if !(1e-280..=1e280).contains(&square) {
         return None;
     }
@@ -16,9 +15,9 @@ pub(crate) fn unit(v: Vec3<f64>) -> Option<Vec3<f64>> {
     Some(Vec3::new(v.x / length, v.y / length, v.z / length))
 }
 
-/// The vector at unit length, such that it keeps its bits when it is brought there again.
+/// The vector at unit length, such that normalising it again keeps its bits.
 pub(crate) fn settled(v: Vec3<f64>) -> Option<Vec3<f64>> {
-    // Nearly always the second time changes nothing.
+    // The second pass rarely changes anything.
     const MOST: usize = 8;
     let mut found = unit(v)?;
     for _ in 0..MOST {
@@ -42,7 +41,7 @@ pub(crate) fn normals(axis: Vec3<f64>, reference: Vec3<f64>) -> Option<[Vec3<f64
     Some([e1, axis.cross(e1)])
 }
 
-/// The world axis least aligned with a direction; of equal ones the first.
+/// The world axis least aligned with a direction, the first of equal ones.
 pub(crate) fn least_aligned(direction: Vec3<f64>) -> Vec3<f64> {
     let [x, y, z] = direction.to_f64().map(f64::abs);
     if x <= y && x <= z {

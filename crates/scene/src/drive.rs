@@ -1,4 +1,4 @@
-//! What drives an input: the caller, a table over time, or a source.
+//! The drive of an input: the caller, a table over time, or a source.
 //!
 //! `keys of [[input]] => drive`. A table over a read-out is read once all read-outs are known, see
 //! [`read_over`].
@@ -9,17 +9,17 @@ use crate::text::{Choice, Kind, Number, Seconds, Switch, Table, Text, Value};
 /// The keys of every input.
 pub(crate) const INPUT: &[&str] = &["name", "type"];
 
-/// The keys that say what drives an input.
+/// The keys of the drive of an input.
 pub(crate) const KEYS: [&str; 8] =
     ["value", "range", "table", "interpolate", "periodic", "jump", "over", "sine"];
 
 /// The keys of a sine.
 pub(crate) const SINE: &[&str] = &["amplitude", "frequency", "phase", "offset"];
 
-/// What drives an input.
+/// The drive of an input.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Drive {
-    /// The caller; this value at first.
+    /// The caller, with this initial value.
     Caller(f64),
     /// A table over time.
     Table(Curve),
@@ -27,7 +27,7 @@ pub(crate) enum Drive {
     Sine([f64; 4]),
     /// A table over time that repeats; its last knot is the end of the period.
     Periodic(Curve),
-    /// A table over a read-out, which is not known yet.
+    /// A table over a read-out, which is resolved later.
     Over,
 }
 
@@ -47,34 +47,34 @@ pub(crate) fn range(
     unit: &'static str,
 ) -> Result<[f64; 2], SceneError> {
     let Some(value) = table.value("range") else { return Ok([-f64::INFINITY, f64::INFINITY]) };
-    let expected = format!("[least, largest] in {unit}, the second not below the first");
+    let expected = format!("[lower, upper] in {unit}, with lower ≤ upper");
     let entries = value.entries(2, &expected)?;
     let [least, most] = [&entries[0], &entries[1]].map(|entry| Number::any(unit).read(entry));
     let (least, most) = (least?, most?);
     if least > most {
-        return Err(value.refuse("is the wrong way round", &expected));
+        return Err(value.refuse("has its bounds in the wrong order", &expected));
     }
     let Drive::Caller(start) = drive else {
-        let help = "it bounds what a caller sets; what the scene drives is as it is written";
+        let help = "remove `range`: it limits the values that a caller sets, not those that the scene drives";
         let other = if table.has("sine") { "sine" } else { "table" };
         return Err(table.refuse_key("range", &format!("contradicts `{other}`"), help));
     };
     if !(least..=most).contains(start) {
         let (key, problem) = match table.has("value") {
-            true => ("value", "is beyond `range`".to_owned()),
-            false => ("range", "does not hold the value 0 at t = 0".to_owned()),
+            true => ("value", "is outside `range`".to_owned()),
+            false => ("range", "does not contain the value 0 at t = 0".to_owned()),
         };
-        return Err(table.refuse_key(key, &problem, "a `value` within the range"));
+        return Err(table.refuse_key(key, &problem, "give a `value` within the range"));
     }
     Ok([least, most])
 }
 
-/// Reads what drives an input whose value is in `unit`.
+/// Reads the drive of an input with a value in `unit`.
 pub(crate) fn read(table: &Table<'_>, unit: &'static str) -> Result<Drive, SceneError> {
     let ways = ["value", "table", "sine"].map(|key| table.has(key));
     if ways.iter().filter(|is_there| **is_there).count() > 1 {
-        let help = "a `table` or a `sine` for an input that the scene drives, a `value` for one that \
-                    holds until the caller sets it";
+        let help = "give a `table` or a `sine` for an input that the scene drives, a `value` for one \
+                    that the caller sets";
         let (key, other) = match ways {
             [true, true, _] => ("value", "table"),
             [true, ..] => ("value", "sine"),
@@ -84,14 +84,14 @@ pub(crate) fn read(table: &Table<'_>, unit: &'static str) -> Result<Drive, Scene
     }
     if !table.has("table") {
         for (key, what) in [
-            ("interpolate", "says how a `table` goes on between its times"),
-            ("periodic", "says that a `table` repeats"),
-            ("jump", "lets a periodic `table` end at another value than it begins with"),
-            ("over", "names the read-out that a `table` stands over"),
+            ("interpolate", "selects the interpolation of a `table`"),
+            ("periodic", "makes a `table` repeat"),
+            ("jump", "allows a periodic `table` to end at another value than its first"),
+            ("over", "names the read-out that a `table` depends on"),
         ] {
             if table.has(key) {
                 let help = format!("`{key}` {what}");
-                return Err(table.refuse_key(key, "stands without `table`", &help));
+                return Err(table.refuse_key(key, "requires `table`", &help));
             }
         }
         if let Some(sine) = table.value("sine") {
@@ -103,14 +103,15 @@ pub(crate) fn read(table: &Table<'_>, unit: &'static str) -> Result<Drive, Scene
     let periodic = table.optional("periodic", Switch)?.unwrap_or_default();
     let jump = table.optional("jump", Switch)?.unwrap_or_default();
     if jump && !periodic {
-        let help = "`jump` lets a table with `periodic = true` end at another value than it begins \
-                    with";
-        return Err(table.refuse_key("jump", "stands without `periodic`", help));
+        let help =
+            "`jump` allows a table with `periodic = true` to end at another value than its first";
+        return Err(table.refuse_key("jump", "requires `periodic = true`", help));
     }
     if table.has("over") {
         table.required("over", Text::Name)?;
         if periodic {
-            let help = "a table over time repeats; one over a read-out holds its ends";
+            let help =
+                "only a table over time can repeat; a table over a read-out holds its end values";
             return Err(table.refuse_key("periodic", "contradicts `over`", help));
         }
         return Ok(Drive::Over);
@@ -123,13 +124,12 @@ pub(crate) fn read(table: &Table<'_>, unit: &'static str) -> Result<Drive, Scene
         return Ok(Drive::Table(curve));
     };
     if curve.knots.len() < 2 {
-        let help = "the last time of a periodic table is the end of its period: at least two times";
-        return Err(table.refuse_value("table", "has one time and no period", help));
+        let help = "give at least two times; the last one is the end of the period";
+        return Err(table.refuse_value("table", "has only one time and therefore no period", help));
     }
     if first[1] != last[1] && !jump {
-        let problem = format!("ends at {:?} and begins again at {:?}", last[1], first[1]);
-        let help = "the last time of a periodic table is the end of its period, at which its first \
-                    value acts again: the same value, or `jump = true`";
+        let problem = format!("ends at {:?} but restarts at {:?}", last[1], first[1]);
+        let help = "give the first value at the last time, which is the end of the period, or set `jump = true`";
         return Err(table.refuse_value("table", &problem, help));
     }
     Ok(Drive::Periodic(curve))
@@ -145,7 +145,7 @@ fn sine(value: &Value<'_>, unit: &'static str) -> Result<[f64; 4], SceneError> {
     Ok([amplitude, frequency, phase, offset])
 }
 
-/// Reads a table over something.
+/// Reads a table over time or a read-out.
 pub(crate) fn curve(
     table: &Table<'_>,
     over: Argument,
@@ -156,7 +156,7 @@ pub(crate) fn curve(
     Ok(Curve { knots, linear: interpolate == Some(1) })
 }
 
-/// What a table stands over.
+/// The argument of a table.
 #[derive(Clone, Copy)]
 pub(crate) struct Argument {
     pub(crate) unit: &'static str,
@@ -189,12 +189,12 @@ impl Kind for Knots {
             if let Some([last, before]) = knots.last() {
                 if knot[0] <= *last {
                     let problem = format!("is at {:?} {over}, not after {last:?} {over}", knot[0]);
-                    let help = format!("{name}s ascend from knot to knot");
+                    let help = format!("give knots in ascending order of {name}");
                     return Err(entry.refuse_with(&problem, help));
                 }
                 if !((knot[1] - before) / (knot[0] - last)).is_finite() {
-                    let problem = "rises faster than a number can say";
-                    let help = format!("a smaller value, or a later {name}");
+                    let problem = "has a slope out of the range of double precision";
+                    let help = format!("use a smaller value or a larger {name}");
                     return Err(entry.refuse_with(problem, help));
                 }
             }

@@ -1,8 +1,8 @@
-//! In which order a matrix with a block per body and per pair of bodies is eliminated.
+//! Elimination order of a matrix with a block per body and per pair of bodies.
 //!
-//! `(number of bodies, ends of groups and torsion springs) => plan`. The body with the fewest neighbours
-//! goes next, the first of them where several have, and joins its neighbours (Tinney & Walker 1967):
-//! chains and loops of mechanisms fill in next to nothing.
+//! `(number of bodies, ends of groups and torsion springs) => plan`. The body with the fewest neighbours is
+//! eliminated next, the first of equal ones, and its neighbours become connected (Tinney & Walker 1967): chains and
+//! loops of mechanisms have almost no fill-in.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Deref;
@@ -26,15 +26,14 @@ pub struct Elimination {
 }
 
 impl Elimination {
-    /// The plan of a model of so many bodies, of which what has these ends is stiff: its groups, then its
-    /// torsion springs, then its laws. Ends that are no bodies are ground. `None` where there are more pairs than an index
-    /// counts.
+    /// The plan of a model with this number of bodies and stiff elements between these ends: groups, then torsion
+    /// springs, then laws. Ends that are not bodies are the ground. `None` if the pairs exceed the index range.
     #[must_use]
     pub fn new(bodies: usize, ends: &[[u16; 2]]) -> Option<Self> {
         Self::with_cliques(bodies, ends, &[])
     }
 
-    /// [`Self::new`] with bodies of which each two have a block.
+    /// [`Self::new`] with a block for every pair of bodies.
     fn with_cliques(bodies: usize, ends: &[[u16; 2]], cliques: &[Vec<u16>]) -> Option<Self> {
         let is_body = |body: u16| usize::from(body) < bodies;
         let mut neighbours: Vec<BTreeSet<u16>> = vec![BTreeSet::new(); bodies];
@@ -47,7 +46,7 @@ impl Elimination {
             neighbours[usize::from(a)].insert(b);
             neighbours[usize::from(b)].insert(a);
         }
-        // By number of neighbours, so that the next one is the first.
+        // Sorted by number of neighbours: the next body is the first.
         let mut left: BTreeSet<(usize, u16)> =
             (0..).zip(&neighbours).map(|(body, near)| (near.len(), body)).collect();
         let mut plan = Self::default();
@@ -85,7 +84,7 @@ impl Elimination {
             .iter()
             .map(|&[a, b]| rows.get(&[a, b]).or(rows.get(&[b, a])).copied().unwrap_or(Plan::GROUND))
             .collect();
-        // The last number is the ground's.
+        // The last number is that of the ground.
         (plan.pairs.len() <= usize::from(Plan::GROUND)).then_some(plan)
     }
 
@@ -110,14 +109,14 @@ impl Elimination {
         Self::with_cliques(bodies, &ends, &cliques)
     }
 
-    /// As the kernel follows it.
+    /// The plan in the form of the kernel.
     #[must_use]
     pub fn plan(&self) -> Plan<'_> {
         let Self { order, pairs, targets, homes } = self;
         Plan { order, pairs, targets, homes }
     }
 
-    /// How many pairs elimination fills.
+    /// Number of pairs filled in by elimination.
     #[must_use]
     pub fn filled(&self) -> usize {
         self.pairs.len()
@@ -133,8 +132,7 @@ pub struct Eliminated<H> {
 }
 
 impl<H: Deref<Target: ModelOwner + Sized>> Eliminated<H> {
-    /// The model that `model` points to with its plan; `None` where that has more pairs of bodies than an
-    /// index counts.
+    /// The model that `model` points to with its plan; `None` if the pairs of bodies exceed the index range.
     #[must_use]
     pub fn new(model: H) -> Option<Self> {
         let view = model.view();

@@ -1,4 +1,4 @@
-//! Why a scene is refused: file, line, column, what is wrong, what would be right.
+//! Errors of a scene: file, line, column, problem, remedy.
 
 use std::fmt;
 use std::io;
@@ -9,13 +9,13 @@ use thiserror::Error;
 use crate::quantity::Scope;
 use crate::written::{Angles, Log};
 
-/// A scene that cannot be read, or that is refused.
+/// A scene that cannot be read or is invalid.
 ///
-/// Displayed on one line as what is wrong; place and help are in the accessors and the diagnostic.
+/// Displayed as the problem on one line; accessors and the diagnostic provide position and help.
 #[derive(Debug, Error)]
 pub enum SceneError {
     /// The file cannot be read.
-    // The reason is part of the message and therefore not a source, which would say it twice.
+    // The reason is part of the message and therefore not a source, which would repeat it.
     #[error("cannot read {file}: {reason}")]
     Unreadable {
         /// Its name.
@@ -23,12 +23,12 @@ pub enum SceneError {
         /// Why.
         reason: io::Error,
     },
-    /// The scene is refused.
+    /// The scene is invalid.
     #[error("{0}")]
     Refused(Box<Refusal>),
 }
 
-/// What is wrong with a scene, and where.
+/// The problem of a scene and its position.
 #[derive(Debug, Error)]
 #[error("{message}")]
 pub struct Refusal {
@@ -50,7 +50,7 @@ impl SceneError {
         }
     }
 
-    /// The line of what is wrong, from 1; `None` where the file cannot be read.
+    /// The line of the problem, from 1; `None` where the file cannot be read.
     #[must_use]
     pub fn line(&self) -> Option<usize> {
         match self {
@@ -59,7 +59,7 @@ impl SceneError {
         }
     }
 
-    /// The column of what is wrong, in characters from 1; `None` where the file cannot be read.
+    /// The column of the problem, in characters from 1; `None` where the file cannot be read.
     #[must_use]
     pub fn column(&self) -> Option<usize> {
         match self {
@@ -68,17 +68,17 @@ impl SceneError {
         }
     }
 
-    /// What is wrong.
+    /// The problem.
     #[must_use]
     pub fn message(&self) -> String {
         self.to_string()
     }
 
-    /// What would be right.
+    /// The remedy.
     #[must_use]
     pub fn help(&self) -> &str {
         match self {
-            Self::Unreadable { .. } => "a scene is a readable TOML file in UTF-8",
+            Self::Unreadable { .. } => "expected a readable TOML file in UTF-8",
             Self::Refused(refusal) => &refusal.help,
         }
     }
@@ -107,25 +107,25 @@ impl Diagnostic for SceneError {
     }
 }
 
-/// The text of a scene, its file's name, and what the text's names stand for.
+/// The text of a scene, its file name, and the scope of its names.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'t> {
     /// The name used in messages.
     pub(crate) file: &'t str,
-    /// The text: the file's, then a line per change of it.
+    /// The text of the file, then a line per change.
     pub(crate) text: &'t str,
-    /// How long the file's is.
+    /// Length of the text of the file.
     pub(crate) own: usize,
-    /// What names in values stand for, once it is known.
+    /// Values of names, once known.
     pub(crate) scope: Option<&'t Scope>,
-    /// Where the numbers that are read are noted, where anyone asks.
+    /// Log of the numbers read, if requested.
     pub(crate) log: Option<&'t Log>,
-    /// Where large angles are noted, while a scene is read.
+    /// Log of large angles while a scene is read.
     pub(crate) angles: Option<&'t Angles>,
 }
 
 impl<'t> Source<'t> {
-    /// What a change of a scene is called where a file's name stands.
+    /// The file name shown for a change of a scene.
     pub(crate) const CHANGE: &'static str = "--set";
 
     /// The text of a file, without changes.
@@ -133,12 +133,12 @@ impl<'t> Source<'t> {
         Self { file, text, own: text.len(), scope: None, log: None, angles: None }
     }
 
-    /// Whether a byte is one of a change.
+    /// Whether a byte belongs to a change.
     pub(crate) fn is_change(self, byte: usize) -> bool {
         byte > self.own && self.text.len() > self.own
     }
 
-    /// What a byte belongs to, and where that begins: the file, or the line of a change.
+    /// The part that contains a byte, the file or the line of a change, and its start.
     fn part(self, byte: usize) -> (Self, usize) {
         let own = |text| (Self { text, ..self }, 0);
         if !self.is_change(byte) {
@@ -150,7 +150,7 @@ impl<'t> Source<'t> {
         (Self::of(Self::CHANGE, &self.text[start..end]), start)
     }
 
-    /// A refusal of the bytes `span`.
+    /// An error at the bytes `span`.
     pub(crate) fn refuse(
         self,
         span: std::ops::Range<usize>,

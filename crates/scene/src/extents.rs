@@ -1,4 +1,4 @@
-//! Whether a scene lies within what a precision stores.
+//! Checks that a scene is within the range of a precision.
 //!
 //! `(scene, precision, step) => the first part that does not fit, by its name, with the numbers`.
 
@@ -8,32 +8,32 @@ use dbd_kernel::{BodyIndex, Geometry};
 use crate::scene::Scene;
 use crate::time::display;
 
-/// A part of a model that a precision cannot hold.
+/// A part of a model out of the range of a precision.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{what}, and {precision} holds at most {limit} m")]
+#[error("{what}, but {precision} represents at most {limit} m")]
 pub struct Misfit {
-    /// What it is and does, with its number: ``the body `cart` lies 30 m from the origin``.
+    /// Description with its value: ``the body `cart` lies 30 m from the origin``.
     pub what: String,
     /// \[m\] the limit.
     pub limit: f64,
     /// The precision's name.
     pub precision: &'static str,
-    /// What would be right.
+    /// The remedy.
     pub remedy: &'static str,
 }
 
-/// How far away a body or a point of the ground may be.
-const NEARER: &str = "an origin nearer to the mechanism, or --precision f64";
-/// How long an arm may be.
-const SHORTER: &str = "a centre of mass nearer to the point, or --precision f64";
-/// How far a body may move in a step.
-const FINER: &str = "a shorter step, or --precision f64";
-/// How far the ground may move.
+/// Remedy for the distance of a body or a point of the ground.
+const NEARER: &str = "move the origin nearer to the mechanism, or use --precision f64";
+/// Remedy for the distance of a point from the centre of mass.
+const SHORTER: &str = "move the centre of mass nearer to the point, or use --precision f64";
+/// Remedy for the motion of a body in a step.
+const FINER: &str = "use a shorter step or --precision f64";
+/// Remedy for the motion of the ground.
 const LESS: &str =
-    "a smaller displacement, with the rest of it in the anchor's place, or --precision f64";
+    "use a smaller displacement from an anchor moved by the remainder, or --precision f64";
 
 impl Misfit {
-    /// What does not fit of a model of which no names are known.
+    /// The error for a model without names.
     #[must_use]
     pub fn unnamed<P: Geometry>(excess: &Excess, step: f64) -> Self {
         let body = |body: BodyIndex| format!("body {}", body.0);
@@ -80,10 +80,10 @@ impl Misfit {
     }
 }
 
-/// An input whose value or table a precision cannot hold.
+/// An input with a value or table out of the range of a precision.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the input `{input}` (line {line}) has a value, a rise or a time that {precision} cannot hold"
+    "the input `{input}` (line {line}) has a value, a slope or a time out of the range of {precision}"
 )]
 pub struct UnfitInput {
     /// The input.
@@ -94,11 +94,10 @@ pub struct UnfitInput {
     pub precision: &'static str,
 }
 
-/// Whether bodies, points and the ground's displacements lie within what a precision stores, with steps
-/// of `step` \[s\], in space.
+/// Checks that bodies, points and displacements of the ground are within the range of a precision, with steps of
+/// `step` \[s\], in space.
 ///
-/// # Errors
-/// The first part that does not.
+/// # Errors The first part out of range.
 pub fn check_extents<P: Geometry>(scene: &Scene, step: f64) -> Result<(), Misfit> {
     let view = dbd_kernel::model::ModelOwner::view(&scene.model);
     let excess = first_excess::<P, _, _>(&view, &scene.model.initial, step);
@@ -117,10 +116,9 @@ pub fn check_extents<P: Geometry>(scene: &Scene, step: f64) -> Result<(), Misfit
     Err(Misfit::of::<P>(&excess, step, body, group, input))
 }
 
-/// Whether a precision holds what inputs are given.
+/// Checks that the values of inputs are within the range of a precision.
 ///
-/// # Errors
-/// The first input that it does not.
+/// # Errors The first input out of range.
 pub fn check_inputs<P: Geometry>(scene: &Scene) -> Result<(), UnfitInput> {
     let Some(index) = scene.model.convert::<P>().unfit_input() else { return Ok(()) };
     let row = usize::from(index.0);
@@ -134,7 +132,7 @@ fn joint_of(scene: &Scene, group: usize) -> Option<&str> {
     Some(&joint.name)
 }
 
-/// What messages call the raw element of a group.
+/// The label of the raw element of a group in messages.
 fn raw_of(scene: &Scene, group: usize) -> Option<&str> {
     let first = scene.joints.iter().map(|joint| joint.groups.end).max().unwrap_or(0);
     scene.raw_names().get(group.checked_sub(first)?).map(String::as_str)
@@ -163,23 +161,23 @@ mod tests {
         for (far, said) in [
             (
                 scene("[0, 30, 0]", near, near, near),
-                "the body `cart` lies 30 m from the origin along an axis, and fixed holds at most 24 m",
+                "the body `cart` lies 30 m from the origin along an axis, but fixed represents at most 24 m",
             ),
             (
                 scene(near, "[0, 0, -25]", near, near),
-                "lies 25 m from the origin along an axis, and fixed holds at most 24 m",
+                "lies 25 m from the origin along an axis, but fixed represents at most 24 m",
             ),
             (
                 scene(near, near, "[6, 0, 8]", near),
-                "lies 10 m from the centre of mass of the body `cart`, and fixed holds at most 7 m",
+                "lies 10 m from the centre of mass of the body `cart`, but fixed represents at most 7 m",
             ),
             (
                 scene(near, near, near, "[0, 0, 500]"),
-                "the body `cart` moves 0.5 m in a step of 1ms, and fixed holds at most 0.125 m",
+                "the body `cart` moves 0.5 m in a step of 1ms, but fixed represents at most 0.125 m",
             ),
             (
                 scene(near, near, near, near),
-                "the input `road` moves the ground by 8 m, and fixed holds at most 7 m",
+                "the input `road` moves the ground by 8 m, but fixed represents at most 7 m",
             ),
         ] {
             let found = check_extents::<Fixed>(&far, 1e-3).unwrap_err().to_string();

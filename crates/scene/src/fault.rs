@@ -1,51 +1,56 @@
-//! What went wrong with a step, in the scene's names.
+//! Causes of a failed step, with the names of the scene.
 //!
-//! `cause => sentence`, the same for everyone who runs the scene.
+//! `cause => sentence`, the same for all programs.
 
 use dbd_kernel::status::{Cause, MOST_TURN};
 
 use crate::scene::Scene;
 
-/// What went wrong with a step, to go into a sentence: ``body `crank` turns by more than 1 rad in a step``.
+/// The cause of a failed step as a clause: ``body `crank` turns by more than 1 rad in a step``.
 #[must_use]
 pub fn fault(scene: &Scene, cause: &Cause) -> String {
     let name = |body: &dbd_kernel::BodyIndex| scene.body_name(body.row());
     let spring = |row: usize| scene.torsion_names.get(row).map_or("", String::as_str);
     match cause {
         Cause::NonFinite { body } => {
-            format!("a number of body `{}`'s state is not finite", name(body))
+            format!("the state of body `{}` is not finite", name(body))
         }
         Cause::Spin { body } => {
             format!("body `{}` turns by more than {MOST_TURN} rad in a step", name(body))
         }
         Cause::Turn { body } => {
-            format!("body `{}` turns farther in a step than the scheme bears", name(body))
+            format!("body `{}` turns farther in a step than the scheme allows", name(body))
         }
         Cause::Extent { body } => {
             let body = name(body);
-            format!("body `{body}` is farther away, or faster, than fixed-point numbers hold")
+            format!("body `{body}` leaves the fixed-point range of positions or velocities")
         }
         Cause::Turns { spring: row } => {
-            format!("the turn count of {} is at its end", spring(usize::from(row.0)))
+            format!(
+                "the revolution count of {} has reached its maximum",
+                spring(usize::from(row.0))
+            )
         }
         Cause::Pivot { body } => {
-            format!("the matrix of the step has no factor at body `{}`", name(body))
+            format!("the iteration matrix is not positive definite (body `{}`)", name(body))
         }
-        Cause::Steps => "the step counter is at its end".to_owned(),
+        Cause::Steps => "the step counter has reached its maximum".to_owned(),
         Cause::Frequency { body } => {
             let body = name(body);
-            format!("what is mounted to body `{body}` can vibrate faster than the step bears")
+            format!("the mounts on body `{body}` can vibrate at a frequency too high for the step")
         }
         Cause::Energy { body } => {
-            format!("the energy is beyond its limit, most of it in body `{}`,", name(body))
+            format!("the energy exceeds its limit, most of it in body `{}`,", name(body))
         }
         Cause::Undefined { law } => {
             let law = scene.law_names.get(usize::from(law.0)).map_or("", String::as_str);
-            format!("what {law} does is undefined: its bodies turned half a turn across its axis")
+            format!("{law} is undefined: its bodies have turned by 180° across its axis")
         }
         Cause::UndefinedTwist { spring: row } => {
             let spring = spring(usize::from(row.0));
-            format!("the twist of {spring} is undefined: its bodies turned half a turn across it")
+            format!(
+                "the torsion angle of {spring} is undefined: its bodies have turned by 180° across its axis"
+            )
         }
     }
 }

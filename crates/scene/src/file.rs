@@ -1,21 +1,20 @@
 //! Files that a user or another file names.
 //!
-//! `path => bytes, text`. A device or a pipe may have no end, and opening it may never return: only regular files
-//! of a limited size are read.
+//! `path => bytes, text`. Only regular files of limited size are read: a device or pipe may be endless, and opening
+//! it may block.
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// \[byte\] a text that people write has at most this size.
+/// \[byte\] maximum size of a text file.
 pub const MAX_BYTES: u64 = 64 << 20;
 
 /// Opens a regular file to read it.
 ///
-/// # Errors
-/// Where it cannot be opened or is no regular file.
+/// # Errors If it cannot be opened or is not a regular file.
 pub fn open(path: impl AsRef<Path>) -> io::Result<File> {
-    // Before opening, for that alone may wait for ever; after it, for the name may be another's meanwhile.
+    // Before opening, which may block indefinitely; and after it, because the path may have changed.
     check_kind(&fs::metadata(path.as_ref())?)?;
     let file = File::open(path)?;
     check_kind(&file.metadata()?)?;
@@ -32,11 +31,10 @@ fn check_kind(metadata: &Metadata) -> io::Result<()> {
 
 /// The bytes of a regular file of at most `limit` bytes.
 ///
-/// # Errors
-/// Where it cannot be read, is no regular file, or is larger.
+/// # Errors If it cannot be read, is not a regular file, or is larger.
 pub fn read(path: impl AsRef<Path>, limit: u64) -> io::Result<Vec<u8>> {
     let file = open(path)?;
-    // What is known to be too large is not read up to the limit first.
+    // Files known to be too large are not read.
     if file.metadata()?.len() > limit {
         return Err(too_large(limit));
     }
@@ -45,16 +43,14 @@ pub fn read(path: impl AsRef<Path>, limit: u64) -> io::Result<Vec<u8>> {
 
 /// The text of a regular file of at most [`MAX_BYTES`].
 ///
-/// # Errors
-/// Where it cannot be read, is no regular file, is larger, or no UTF-8.
+/// # Errors If it cannot be read, is not a regular file, is larger, or is not UTF-8.
 pub fn read_text(path: impl AsRef<Path>) -> io::Result<String> {
     text(read(path, MAX_BYTES)?)
 }
 
 /// The text of a stream of at most [`MAX_BYTES`], such as standard input.
 ///
-/// # Errors
-/// Where it cannot be read, is longer, or no UTF-8.
+/// # Errors If it cannot be read, is longer, or is not UTF-8.
 pub fn read_stream(stream: impl Read) -> io::Result<String> {
     text(limited(stream, MAX_BYTES)?)
 }
@@ -73,6 +69,6 @@ fn too_large(limit: u64) -> io::Error {
 }
 
 fn text(bytes: Vec<u8>) -> io::Result<String> {
-    let wrong = |_| io::Error::new(io::ErrorKind::InvalidData, "it is no text in UTF-8");
+    let wrong = |_| io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8 text");
     String::from_utf8(bytes).map_err(wrong)
 }

@@ -1,4 +1,4 @@
-//! On which lines of its file a scene's things begin.
+//! Line numbers of the tables of a scene.
 
 use crate::error::SceneError;
 use crate::text::Table;
@@ -34,5 +34,5 @@ impl FileLines {
     }
 }
 
-/// Where an interaction stands in the scene: its table and the number of that.
+/// Position of an interaction in the scene: kind and number of its table.
 pub(crate) type LawPlace = (&'static str, usize);

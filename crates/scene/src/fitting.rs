@@ -1,30 +1,30 @@
 //! Steps of which a duration and a sampling interval are whole multiples.
 //!
-//! `(duration, every) => span; span => steps that divide it`. In + − × ÷ and conversions to
-//! integers only, so that every host finds the same steps.
+//! `(duration, every) => span; span => steps that divide it`. Uses only + − × ÷ and conversions to integers, so every
+//! host finds the same steps.
 
 use std::cmp::Ordering;
 
-/// Relative deviation up to which a quotient counts as whole.
+/// Relative tolerance of a whole quotient.
 pub const WHOLE: f64 = 1e-9;
 
-/// Sampling intervals that are searched for a number which the duration divides. More would
-/// shorten the step beyond what can be meant, and in the end any number fits within 1e-9.
+/// Maximum number of parts of the sampling interval to try. More would make the step unreasonably short, and
+/// eventually any number fits within 1e-9.
 const MOST_INTERVALS: u64 = 1000;
 
-/// What a round step is a power of ten of.
+/// Mantissas of round steps.
 const MANTISSAS: [f64; 7] = [8.0, 5.0, 4.0, 2.5, 2.0, 1.25, 1.0];
 
-/// \[s\] intervals of controllers and masters that a round step divides.
+/// \[s\] common intervals of controllers that a round step divides.
 const COMMON: [f64; 2] = [1e-3, 1.0];
 
-/// Beyond this every quotient is a whole number, and an integer may not hold it.
+/// Beyond this every quotient is whole and may overflow an integer.
 const LARGEST: f64 = (1_u64 << 53) as f64;
 
-/// The whole number ≥ 1 that `quotient` is, within [`WHOLE`]; none beyond 2⁵³.
+/// `quotient` as a whole number ≥ 1, within [`WHOLE`]; `None` beyond 2⁵³.
 #[must_use]
 pub fn whole(quotient: f64) -> Option<u64> {
-    // Not a number is no whole number either.
+    // NaN is not whole.
     if !matches!(quotient.partial_cmp(&LARGEST), Some(Ordering::Less | Ordering::Equal)) {
         return None;
     }
@@ -34,14 +34,12 @@ pub fn whole(quotient: f64) -> Option<u64> {
     (nearest >= 1 && -tolerance <= excess && excess <= tolerance).then_some(nearest)
 }
 
-/// The longest time of which every fitting step is a whole part: the sampling interval, without
-/// one the duration.
+/// The longest time that every fitting step divides: the sampling interval or, without one, the duration.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
     duration: f64,
     every: Option<f64>,
-    /// How many sampling intervals the duration divides first: a fitting step divides each into
-    /// a multiple of so many parts.
+    /// A fitting step divides each sampling interval into a multiple of this number of parts.
     intervals: u64,
 }
 
@@ -65,13 +63,13 @@ impl Span {
         self.step(self.intervals)
     }
 
-    /// \[s\] the step of so many parts of the span.
+    /// \[s\] the step for this number of parts of the span.
     #[must_use]
     pub fn step(&self, parts: u64) -> f64 {
         self.time() / parts as f64
     }
 
-    /// The least number of parts whose length is at most `limit`.
+    /// The smallest number of parts with a length of at most `limit`.
     #[must_use]
     pub fn parts_at_most(&self, limit: f64) -> u64 {
         let exact = self.time() / limit / self.intervals as f64;
@@ -80,9 +78,9 @@ impl Span {
         above.max(1) * self.intervals
     }
 
-    /// \[s\] The longest round step up to `limit`: 1, 1.25, 2, 2.5, 4, 5 or 8 times a power of ten, of which
-    /// 1 ms, beyond that 1 s, is a multiple as well. Where none fits that is at least a third of the longest
-    /// step that fits, the latter.
+    /// \[s\] The longest round step up to `limit`: 1, 1.25, 2, 2.5, 4, 5 or 8 times a power of ten, of which 1 ms,
+    /// beyond that 1 s, is a multiple as well. If none of at least a third of the longest fitting step fits, the
+    /// latter.
     #[must_use]
     pub fn round_step(&self, limit: f64) -> f64 {
         let longest = self.step(self.parts_at_most(limit));
@@ -103,7 +101,7 @@ impl Span {
         round.into_iter().find(is_fit).unwrap_or(longest)
     }
 
-    /// The two fitting steps nearest to `step`, one on either side where there is one.
+    /// The two fitting steps nearest to `step`, one on each side if it exists.
     #[must_use]
     pub fn nearest_steps(&self, step: f64) -> Vec<f64> {
         let below = (self.time() / step / self.intervals as f64) as u64;

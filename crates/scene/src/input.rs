@@ -1,7 +1,6 @@
-//! `[[input]]`: what a controller, a road or a table drives at run time.
+//! `[[input]]`: quantities driven at run time by a controller, a road or a table.
 //!
-//! `table => input of the model`. A type is one row of [`TYPES`]: its keys and what it makes of
-//! them.
+//! `table => input of the model`. A type is one row of [`TYPES`]: its keys and its reader.
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::index::InputIndex;
@@ -19,7 +18,7 @@ use crate::points::PlaceOf;
 use crate::target::{ElementName, Kinds, Target};
 use crate::text::{Choice, Direction, Kind, Table, Value};
 
-/// What is said of an input.
+/// Description of an input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputInfo {
     /// Its name.
@@ -28,7 +27,7 @@ pub struct InputInfo {
     pub kind: &'static str,
     /// The unit of its value.
     pub unit: &'static str,
-    /// Whether a table or a sine of the scene drives it; the caller does otherwise.
+    /// Whether a table or a sine of the scene drives it; otherwise the caller does.
     pub table: bool,
     /// \[its unit\] the least and the largest value that the caller can set; infinite without bounds.
     pub range: [f64; 2],
@@ -83,9 +82,13 @@ pub(crate) fn read_all(
         };
         let drive = drive::read(&table, unit)?;
         if drive == Drive::Over && matches!(made, InputKind::Anchor { .. }) {
-            let help = "an anchor moves with its rate, which a reading at the start of a step does not \
-                        tell: a `table` over time, or a `sine`";
-            return Err(table.refuse_key("over", "does not go with the type \"anchor\"", help));
+            let help = "use a `table` over time or a `sine`: an anchor needs its rate, which a read-out \
+                        does not give";
+            return Err(table.refuse_key(
+                "over",
+                "is not compatible with the type \"anchor\"",
+                help,
+            ));
         }
         let range = drive::range(&table, &drive, unit)?;
         let index = known
@@ -98,7 +101,7 @@ pub(crate) fn read_all(
     Ok(infos)
 }
 
-/// Lets a table have the keys of its type: defaults of other types are not its.
+/// Accepts only the keys of its type: defaults of other types do not apply.
 pub(crate) fn allow(table: &Table<'_>) -> Result<(), SceneError> {
     table.only(&[KEYS, &drive::KEYS, kind(table)?.keys])
 }
@@ -129,7 +132,7 @@ fn torque(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, Sc
     Ok(InputKind::Torque { body, axis, frame })
 }
 
-/// `axis` and whose axes it is in.
+/// `axis` and its frame.
 fn axis(
     table: &Table<'_>,
     known: &Known<'_>,
@@ -166,8 +169,9 @@ fn actuator(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, 
     };
     let directed = known.assembly.size(group) > 0.0;
     if !directed {
-        let problem = format!("names the tsda `{name}`, which has no free length and no direction");
-        let help = "an actuator pulls along a tsda with `free_length` > 0";
+        let problem =
+            format!("names the tsda `{name}`, which has no free length and therefore no direction");
+        let help = "name a tsda with `free_length` > 0, along which the actuator pulls";
         return Err(table.refuse_value("target", &problem, help));
     }
     Ok(InputKind::Actuator { group: group as u16, element: 0 })
@@ -193,7 +197,7 @@ fn anchor(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, Sc
         };
         let mut moved = Err(NoAnchor::NoGround);
         for group in groups {
-            // A universal joint stands on the ground with one of its two groups.
+            // Only one of the two groups of a universal joint is attached to the ground.
             match known.assembly.anchor(group) {
                 Err(NoAnchor::NoGround) => {}
                 other => moved = other,
@@ -208,22 +212,22 @@ fn no_anchor(value: &Value<'_>, name: &str, why: NoAnchor) -> SceneError {
     let (problem, help) = match why {
         NoAnchor::NoGround => (
             format!("names `{name}`, which is not joined to the world"),
-            "an anchor moves the ground's points of an element: one of its bodies is \"world\""
+            "name an element that joins a body to \"world\": an anchor moves its points on the ground"
                 .into(),
         ),
         NoAnchor::Taken(input) => (
-            format!("names `{name}`, which input {} moves already", input + 1),
-            "one input moves an element; give another `axis` to that input".into(),
+            format!("names `{name}`, which input {} already moves", input + 1),
+            "move each element by one input; change the `axis` of that input instead".into(),
         ),
         NoAnchor::TooLate => (
-            "comes after 255 other inputs".into(),
-            String::from("anchors are among the first 255 inputs of a scene"),
+            "belongs to an anchor after the first 255 inputs".into(),
+            String::from("put anchors among the first 255 inputs of the scene"),
         ),
     };
     value.refuse_with(&problem, help)
 }
 
-/// One name of what pulls at points, or an array of them.
+/// The name of an element that acts on points, or an array of such names.
 struct Targets<'k, 'a>(&'k Known<'a>);
 
 impl Kind for Targets<'_, '_> {
@@ -247,7 +251,7 @@ impl Kind for Targets<'_, '_> {
             let target = name.read(entry)?;
             if targets.iter().any(|(known, _)| *known == target.0) {
                 let problem = format!("names `{}` a second time", target.0);
-                return Err(entry.refuse_with(&problem, "each element stands once in the array"));
+                return Err(entry.refuse_with(&problem, "name each element once"));
             }
             targets.push(target);
         }

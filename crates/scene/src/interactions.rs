@@ -1,6 +1,6 @@
-//! What is known of a scene's interactions: their laws, bodies, geometry, and what they do at t = 0.
+//! Interactions of a scene: laws, bodies, geometry, and state at t = 0.
 //!
-//! `scene => interactions`. The geometry is what a law writes to a [`FieldSink`].
+//! `scene => interactions`. The geometry is that which a law writes to a [`FieldSink`].
 
 use dbd_kernel::laws::{Field, FieldSink, Instant, Laws as _, MOST_TERMS, Row, Term, Way};
 use dbd_kernel::{BodyIndex, F64, Geometry as _};
@@ -11,18 +11,17 @@ use crate::scene::Scene;
 /// An interaction of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InteractionInfo {
-    /// What messages call it: "interaction `stop` (world–bar)".
+    /// Its label in messages: "interaction `stop` (world–bar)".
     pub label: String,
     /// The name of its law.
     pub law: &'static str,
     /// A, which may be the ground, and B.
     pub bodies: [BodyIndex; 2],
-    /// The bodies of a coupling that are not of its first joint.
+    /// The bodies of a coupling other than those of its first joint.
     pub further: Vec<BodyIndex>,
     /// The number of its dampers; some may have a coefficient of 0.
     pub dampers: usize,
-    /// \[m\] a point of A and a point of B, each in the axes of its body from its centre of mass; of the ground in
-    /// the world.
+    /// \[m\] a point of A and a point of B, each in body axes from the centre of mass; in the world for the ground.
     pub points: Option<[[f64; 3]; 2]>,
     /// \[1\] unit normal of a plane through the first point, in the axes of A.
     pub normal: Option<[f64; 3]>,
@@ -31,7 +30,7 @@ pub struct InteractionInfo {
 }
 
 impl InteractionInfo {
-    /// Its name in the scene; `None` where it has none.
+    /// Its name in the scene, if any.
     #[must_use]
     pub fn name(&self) -> Option<&str> {
         let (_, rest) = self.label.split_once(" `")?;
@@ -39,10 +38,10 @@ impl InteractionInfo {
     }
 }
 
-/// What an interaction does at t = 0.
+/// State of an interaction at t = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct AtStart {
-    /// Its quantity `depth` with its unit, where it has one.
+    /// Its quantity `depth` with its unit, if any.
     pub(crate) depth: Option<(f64, &'static str)>,
     /// \[N\] magnitude of its force.
     pub(crate) force: f64,
@@ -77,7 +76,7 @@ pub fn interactions(scene: &Scene) -> Vec<InteractionInfo> {
     found
 }
 
-/// What each interaction does at t = 0.
+/// State of each interaction at t = 0.
 pub(crate) fn interactions_at_start(scene: &Scene) -> Vec<AtStart> {
     let (frames, bodies) = (facts::frames(scene), &scene.model.initial);
     let instant = Instant { frames: &frames, bodies, signals: &[] };
@@ -102,7 +101,7 @@ fn at_start(law: &dyn Row<F64>, instant: Instant<'_, F64>) -> AtStart {
     start
 }
 
-/// Takes the geometry of a row.
+/// Collects the geometry of a row.
 #[derive(Default)]
 struct Shape {
     points: Option<[[f64; 3]; 2]>,

@@ -1,4 +1,4 @@
-//! What inputs, read-outs, drives and couplings act on: joints and the axes about which they turn, by their names.
+//! Looks up the joints and hinge axes that inputs, read-outs, drives and couplings refer to by name.
 //!
 //! `keys => joint or hinge`.
 
@@ -16,7 +16,7 @@ use crate::text::{Choice, Direction, Table};
 /// The keys that name a hinge, besides `target`.
 pub(crate) const HINGE: &[&str] = &["target", "axis", "about"];
 
-/// What is known where inputs and read-outs are read.
+/// What inputs and read-outs can refer to.
 pub(crate) struct Known<'k> {
     /// The model so far.
     pub(crate) assembly: &'k mut Assembly,
@@ -24,14 +24,14 @@ pub(crate) struct Known<'k> {
     pub(crate) elements: &'k Elements,
     /// The joints.
     pub(crate) joints: &'k [JointInfo],
-    /// Where they are.
+    /// Their positions.
     pub(crate) places: &'k [JointPlace],
-    /// What each interaction shows.
+    /// The quantities that each interaction reports.
     pub(crate) quantities: &'k [&'static [Quantity]],
 }
 
-/// A joint that moves about or along one axis, by its name at a key, and whether it turns; a cylindrical joint needs
-/// `freedom`. `who` asks for it: `a drive`.
+/// The joint named by a key, which must move about or along one axis, and whether it rotates; a cylindrical joint needs
+/// `freedom`. `who` is the subject of the message: `a drive`.
 pub(crate) fn freedom<'p>(
     table: &Table<'_>,
     key: &str,
@@ -49,22 +49,20 @@ pub(crate) fn freedom<'p>(
         Some("cylindrical") => table.required("freedom", Choice(&["turn", "slide"]))? == 0,
         kind => {
             let problem = format!("names the {} joint `{name}`", kind.unwrap_or("unknown"));
-            let help = format!(
-                "{who} acts about or along one axis: of a revolute, translational or cylindrical joint"
-            );
+            let help = format!("{who} needs a revolute, translational or cylindrical joint");
             return Err(table.refuse_value(key, &problem, help));
         }
     };
     let Some(place) = place else { return Err(table.missing(key, "the name of a joint")) };
     if table.has("freedom") && place.kind != "cylindrical" {
-        let help = "a cylindrical joint turns and slides; this one does one of both";
-        return Err(table.refuse_key("freedom", "says nothing here", help));
+        let help = "only a cylindrical joint needs `freedom`";
+        return Err(table.refuse_key("freedom", "is not allowed here", help));
     }
     Ok((place, turns))
 }
 
-/// Reads `target`, a joint or a torsion spring, and what it needs: `axis` for a spherical joint,
-/// `about` for a universal one.
+/// Reads `target`, a joint or a torsion spring, with the keys it requires: `axis` for a spherical joint, `about` for a
+/// universal one.
 pub(crate) fn hinge(table: &Table<'_>, known: &Known<'_>) -> Result<Hinge, SceneError> {
     let name = ElementName { elements: known.elements, kinds: Kinds::TURNING };
     let (name, target) = table.required("target", name)?;
@@ -76,25 +74,33 @@ pub(crate) fn hinge(table: &Table<'_>, known: &Known<'_>) -> Result<Hinge, Scene
         let Target::TorsionSpring(spring) = target else {
             return Err(rigid(table, &name, "element"));
         };
-        refuse_keys(table, &["axis", "about"], "a torsion spring has its axis")?;
+        refuse_keys(table, &["axis", "about"], "a torsion spring defines its own axis")?;
         return known.assembly.torsion_hinge(spring).ok_or_else(|| rigid(table, &name, "spring"));
     };
     match (info.kind, &info.hinges[..]) {
         (_, [hinge]) => {
-            refuse_keys(table, &["axis", "about"], &format!("a {} joint has its axis", info.kind))?;
+            refuse_keys(
+                table,
+                &["axis", "about"],
+                &format!("a {} joint defines its own axis", info.kind),
+            )?;
             Ok(*hinge)
         }
         (_, [first, second]) => {
             refuse_keys(
                 table,
                 &["axis"],
-                "a universal joint has its axes; `about` is \"first\" or \"second\"",
+                "a universal joint defines its own axes; set `about` to \"first\" or \"second\"",
             )?;
             let which = table.required("about", Choice(&["first", "second"]))?;
             Ok(if which == 0 { *first } else { *second })
         }
         ("spherical", _) => {
-            refuse_keys(table, &["about"], "a spherical joint turns about any `axis`")?;
+            refuse_keys(
+                table,
+                &["about"],
+                "a spherical joint has no axis of its own; give `axis`",
+            )?;
             let axis = table.required("axis", Direction)?;
             let group = known.assembly.groups().get(info.groups.start).copied();
             let (a, b) = group.map_or((BodyIndex::WORLD, BodyIndex::WORLD), |g| (g.a, g.b));
@@ -109,15 +115,16 @@ pub(crate) fn hinge(table: &Table<'_>, known: &Known<'_>) -> Result<Hinge, Scene
 }
 
 fn rigid(table: &Table<'_>, name: &str, kind: &str) -> SceneError {
-    let problem = format!("names the {kind} `{name}`, which does not turn");
-    let help = "a revolute, cylindrical, universal or spherical joint, or a torsion spring";
+    let problem = format!("names the {kind} `{name}`, which has no rotation axis");
+    let help = "expected a revolute, cylindrical, universal or spherical joint, or a torsion \
+        spring";
     table.refuse_value("target", &problem, help)
 }
 
-/// Refuses keys that this target does not need.
+/// Refuses keys that this target does not use.
 fn refuse_keys(table: &Table<'_>, keys: &[&str], help: &str) -> Result<(), SceneError> {
     match keys.iter().find(|key| table.has(key)) {
-        Some(key) => Err(table.refuse_key(key, "says nothing here", help)),
+        Some(key) => Err(table.refuse_key(key, "is not allowed here", help)),
         None => Ok(()),
     }
 }

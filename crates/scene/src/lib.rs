@@ -1,28 +1,28 @@
 //! Scenes: a TOML file becomes a checked, assembled model.
 //!
-//! `text → tables with spans → checked elements → assembled model`. Every refusal names file,
-//! line, column, what is wrong and what would be right. The sums and roots of the assembly have
-//! one written order and trigonometry is libm's, so a scene gives the same bits on every host.
+//! `text → tables with spans → checked elements → assembled model`. Every error gives file, line, column, problem and
+//! remedy. The assembly evaluates sums and roots in a fixed order and uses libm for trigonometry, so a scene gives the
+//! same bits on every host.
 //!
-//! A [`Scene`] is data. What is known of one, what is probably not meant, its form in a plane are functions of
-//! `&Scene`. The modules, each of which uses only those before it:
+//! A [`Scene`] is data. Facts, warnings and the planar form are functions of `&Scene`. The modules, each of which uses
+//! only those before it:
 //!
-//! - `precise`, `nearest`, `shortened`, [`fitting`], [`mod@file`]: arithmetic with two words, names that are near, texts and
-//!   numbers cut short, files.
+//! - `precise`, `nearest`, `shortened`, [`fitting`], [`mod@file`]: double-double arithmetic, similar names, shortened
+//!   texts and numbers, files.
 //! - [`quantity`], [`mod@time`], `written`, `error`, `direction`, `text`, `names`, `target`, `file_lines`, `origin`,
-//!   [`parameters`]: values with units; the tables of a file, their places, what refuses them; names and `[parameters]`.
-//! - `drive`, `hinge`, `pair`, `spring`, `solid`, `derived`, `columns`: what tables say, as data.
-//! - [`mod@laws`], `elimination`, `runtime`, [`default_step`]: laws between bodies, and a model of sizes that are known at
+//!   [`parameters`]: values with units; the tables of a file with their positions and errors; names and `[parameters]`.
+//! - `drive`, `hinge`, `pair`, `spring`, `solid`, `derived`, `columns`: the contents of tables, as data.
+//! - [`mod@laws`], `elimination`, `runtime`, [`default_step`]: laws between bodies, and a model whose sizes are known at
 //!   run time.
 //! - `orientation`, `inertia`, `parts`, `closure`: attitudes, moments of inertia, and the pose that closes joints.
-//! - `assembly`, `between`, `points`, `links`, `body`: the model as it grows, with its bodies and points.
-//! - `joints`, `tsda`, `point_on_line`, `torsion_spring`, `load`, `geometry`: elements of one table each.
-//! - `known`, `interaction`, `input`, `readout`, `over`: elements that name others.
-//! - `defaults`: keys of a kind.
+//! - `assembly`, `between`, `points`, `links`, `body`: the model under construction, with its bodies and points.
+//! - `joints`, `tsda`, `point_on_line`, `torsion_spring`, `load`, `geometry`: elements with one table each.
+//! - `known`, `interaction`, `input`, `readout`, `over`: elements that refer to others.
+//! - `defaults`: default keys per kind of table.
 //! - [`planar`], `scene`: the scene.
-//! - `facts`, `interactions`, `lint`, `extents`, `fault`, [`single`], [`reduction`]: what is known of it, what is probably
-//!   not meant, what a precision holds, its form in a plane.
-//! - `start`, `settle`, `write`, `read`, [`mod@vocabulary`]: from its text, and back.
+//! - `facts`, `interactions`, `lint`, `extents`, `fault`, [`single`], [`reduction`]: facts and warnings about it, the
+//!   range of a precision, its planar form.
+//! - `start`, `settle`, `write`, `read`, [`mod@vocabulary`]: reading and writing its text.
 //! - [`export`], [`mod@build`]: Rust source of a model.
 
 mod assembly;
@@ -128,8 +128,7 @@ mod page {}
 mod example {
     use super::Scene;
 
-    /// A scene of two bodies, `arm` turned and off the origin and `hand` spinning, and of these
-    /// elements.
+    /// A scene with two bodies, `arm` rotated and off the origin and `hand` rotating, and with these elements.
     pub(crate) fn with(elements: &str) -> Scene {
         let text = format!(
             r#"

@@ -1,4 +1,4 @@
-//! `[[load]]`: a constant force and torque on a body over a window of time.
+//! `[[load]]`: a constant force and torque on a body during a time window.
 
 use dbd_kernel::{Load, LoadFrame, Vec3};
 
@@ -17,7 +17,7 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
         let force = table.optional("force", Numbers(Number::any("N")))?;
         let torque = table.optional("torque", Numbers(Number::any("N·m")))?;
         if force.is_none() && torque.is_none() {
-            let help = "`force` in N, `torque` in N·m, or both, each an array of 3 numbers";
+            let help = "give `force` in N, `torque` in N·m, or both, each an array of 3 numbers";
             return Err(table.refuse("has neither `force` nor `torque`", help));
         }
         let frame = match table.optional("frame", Choice(&["world", "body"]))? {
@@ -27,8 +27,7 @@ pub(crate) fn read_all(root: &Table<'_>, assembly: &mut Assembly) -> Result<(), 
         let from = table.optional("from", Seconds::any())?.unwrap_or(0.0);
         let until = table.optional("until", Seconds::any())?.unwrap_or(f64::INFINITY);
         if until <= from {
-            let help = "the load acts from `from` until just before `until`; leave `until` out \
-                        for a load that never ends";
+            let help = "give an `until` after `from`, or omit it for a load that never ends";
             let problem = format!("is {until}, not after `from` = {from}");
             return Err(table.refuse_value("until", &problem, help));
         }

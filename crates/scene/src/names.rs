@@ -1,11 +1,11 @@
-//! Names that must differ from each other, and what they name.
+//! Unique names and the items that they refer to.
 
 use std::collections::BTreeMap;
 
 use crate::error::SceneError;
 use crate::text::{Table, Text};
 
-/// The names of some tables, where they are given and what they name.
+/// The names of some tables, with their positions and items.
 pub(crate) struct Names<T> {
     entries: BTreeMap<String, Entry<T>>,
 }
@@ -23,7 +23,7 @@ impl<T> Default for Names<T> {
 }
 
 impl<T> Names<T> {
-    /// Reads the name of a table of `kind`, its key, and refuses one that an earlier table has.
+    /// Reads the name of a table of `kind`; refuses a name that an earlier table has.
     pub(crate) fn read(
         &mut self,
         table: &Table<'_>,
@@ -35,7 +35,7 @@ impl<T> Names<T> {
         Ok(name)
     }
 
-    /// Adds a name that a table has by what it belongs to.
+    /// Adds a name that a table derives from its owner.
     pub(crate) fn add(
         &mut self,
         table: &Table<'_>,
@@ -46,11 +46,11 @@ impl<T> Names<T> {
         let entry = Entry { kind, start: table.start(), thing };
         if let Some(first) = self.entries.insert(name.clone(), entry) {
             let line = table.line_of(first.start);
-            let problem = format!("is \"{name}\", as that of the {} on line {line}", first.kind);
+            let problem = format!("duplicates \"{name}\" of the {} on line {line}", first.kind);
             let help = if kind == first.kind {
-                format!("each {kind} has a name of its own")
+                format!("each {kind} needs a unique name")
             } else {
-                "joints and other elements have names that differ from each other".into()
+                "the names of joints and other elements must be unique".into()
             };
             return Err(match table.has("name") {
                 true => table.refuse_value("name", &problem, help),
@@ -70,12 +70,12 @@ impl<T> Names<T> {
         if table.has("name") { self.read(table, kind, thing).map(drop) } else { Ok(()) }
     }
 
-    /// What a name names.
+    /// The item of a name.
     pub(crate) fn get(&self, name: &str) -> Option<&T> {
         self.entries.get(name).map(|entry| &entry.thing)
     }
 
-    /// All names with what they name, in alphabetical order.
+    /// All names with their items, in alphabetical order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
         self.entries.iter().map(|(name, entry)| (name.as_str(), &entry.thing))
     }

@@ -1,20 +1,18 @@
-//! The name that was probably meant.
+//! Suggestions for misspelled names.
 
-/// Letters of a word that was meant to be a name or a key.
+/// Longest word that is compared.
 const LONGEST: usize = 300;
 
-/// The candidate nearest to a misspelled word, `None` where all are far from it. Of equally near
-/// ones the first.
+/// The candidate closest to a misspelled word; `None` where none is close. Ties give the first.
 #[must_use]
 pub fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let mut best = None;
     let letters = word.chars().count();
     for candidate in candidates {
         let candidate_letters = candidate.chars().count();
-        // A third of the letters: a typing error or two, not another word.
+        // A third of the letters: one or two typing errors, not a different word.
         let limit = (letters.max(candidate_letters) / 3).max(1);
-        // What is too long or too short by more needs no look: a distance takes the time and the
-        // memory of the product of both.
+        // Skip words of very different length: the distance costs time and memory of the product of both lengths.
         if letters.max(candidate_letters) > LONGEST || letters.abs_diff(candidate_letters) > limit {
             continue;
         }
@@ -61,7 +59,7 @@ mod tests {
         assert_eq!(nearest("msas", ["mass"]), Some("mass"));
         assert_eq!(nearest("colour", keys), None);
         assert_eq!(nearest("", keys), None);
-        // 400,000 letters squared are more than any machine holds.
+        // 400,000 letters squared exceed any machine's memory.
         let endless = "m".repeat(400_000);
         assert_eq!(nearest(&endless, [endless.as_str(), "mass"]), None);
     }

@@ -1,7 +1,7 @@
 //! A body's orientation in one of three forms: axis and angle, quaternion, Euler angles.
 //!
-//! `table => unit quaternion` (scalar first, body → world). Trigonometry is libm's. The norm is
-//! summed `((w² + x²) + y²) + z²`.
+//! `table => unit quaternion` (scalar first, body → world). Trigonometry is libm's. The norm is summed as
+//! `((w² + x²) + y²) + z²`.
 
 use dbd_kernel::{Quaternion, Vec3};
 
@@ -52,8 +52,8 @@ fn quaternion(table: &Table<'_>) -> Result<[f64; 4], SceneError> {
     let q = table.required("quaternion", kind)?;
     let square = norm_squared(q);
     if !(1e-280..=1e280).contains(&square) {
-        let help = "four numbers, scalar first, not all 0; they are brought to unit length";
-        return Err(table.refuse_value("quaternion", "has no direction", help));
+        let help = "expected four numbers, scalar first, not all 0; they are normalised";
+        return Err(table.refuse_value("quaternion", "cannot be normalised", help));
     }
     Ok(normalised(q))
 }
@@ -66,8 +66,8 @@ fn euler_321(table: &Table<'_>) -> Result<[f64; 4], SceneError> {
     Ok(normalised(yaw.product(pitch).product(roll).to_f64()))
 }
 
-/// The turn that takes the world's axes to these right-handed unit vectors. The component that
-/// is largest is the one that the root gives (Shepperd 1978).
+/// The rotation from the world's axes to these right-handed unit vectors. The largest component is computed by the
+/// square root (Shepperd 1978).
 pub(crate) fn of_axes([x, y, z]: [Vec3<f64>; 3]) -> [f64; 4] {
     let trace = x.x + y.y + z.z;
     let largest = trace.max(x.x).max(y.y).max(z.z);
@@ -83,16 +83,16 @@ pub(crate) fn of_axes([x, y, z]: [Vec3<f64>; 3]) -> [f64; 4] {
     normalised(q)
 }
 
-/// A turn by an angle about a unit axis.
+/// The rotation by an angle about a unit axis.
 pub(crate) fn about(axis: [f64; 3], angle: f64) -> Quaternion<f64> {
     let (sine, cosine) = libm::sincos(0.5 * angle);
     let [x, y, z] = axis;
     Quaternion::from_f64(normalised([cosine, sine * x, sine * y, sine * z]))
 }
 
-/// A quaternion at unit length that keeps its bits when it is brought there again.
+/// A unit quaternion whose bits do not change when it is normalised again.
 pub(crate) fn settled(q: [f64; 4]) -> [f64; 4] {
-    // Nearly always the second time changes nothing.
+    // Nearly always the second pass changes nothing.
     const MOST: usize = 8;
     let mut unit = normalised(q);
     for _ in 0..MOST {
@@ -109,7 +109,7 @@ fn norm_squared([w, x, y, z]: [f64; 4]) -> f64 {
     w * w + x * x + y * y + z * z
 }
 
-/// A quaternion at unit length.
+/// A normalised quaternion.
 pub(crate) fn normalised(q: [f64; 4]) -> [f64; 4] {
     let norm = libm::sqrt(norm_squared(q));
     q.map(|c| c / norm)

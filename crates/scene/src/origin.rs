@@ -1,6 +1,6 @@
-//! The text that a scene was read from, to show what of it does not go with a run.
+//! The text that a scene was read from, to show settings that conflict with a run.
 //!
-//! `(text, setting) => refusal with file, line and column`.
+//! `(text, setting) => error with file, line and column`.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::error::{SceneError, Source};
 use crate::text::Table;
 
-/// A setting of a scene file that a run may ask for otherwise.
+/// A setting of a scene file that a run may override.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
     /// `duration`.
@@ -31,7 +31,7 @@ impl Setting {
     }
 }
 
-/// The text of a scene, and where its settings stand.
+/// The text of a scene with the positions of its settings.
 #[derive(Clone, Debug)]
 pub(crate) struct Origin {
     file: String,

@@ -1,4 +1,4 @@
-//! Inputs whose table stands over a read-out: read once all read-outs are known.
+//! Inputs with a table over a read-out; read once all read-outs are known.
 //!
 //! `table of [[input]], read-outs => source of the model`.
 
@@ -13,7 +13,7 @@ use crate::nearest::nearest;
 use crate::readout::ReadoutInfo;
 use crate::text::{Table, Text};
 
-/// Reads the tables that stand over read-outs, once these are known.
+/// Reads the tables over read-outs.
 pub(crate) fn read_all(
     root: &Table<'_>,
     assembly: &mut Assembly,
@@ -30,7 +30,7 @@ pub(crate) fn read_all(
     Ok(())
 }
 
-/// The sensor that a table stands over: what the kernel reads, and the direction of a vector's column.
+/// The sensor that a table is a function of, with the direction of a vector's column.
 fn read(
     table: &Table<'_>,
     readouts: &[ReadoutInfo],
@@ -48,15 +48,15 @@ fn read(
     else {
         let help = match nearest(&name, columns.iter().map(|(column, ..)| column.as_str())) {
             Some(meant) => format!("did you mean \"{meant}\"?"),
-            None => "it must be a read-out, of a point one of its columns: \"NAME.x\"".into(),
+            None => "expected a read-out, or one column of a vector read-out: \"NAME.x\"".into(),
         };
-        let problem = format!("names no column of a read-out: \"{name}\"");
+        let problem = format!("names no read-out column: \"{name}\"");
         return Err(table.refuse_value("over", &problem, help));
     };
     let Some(sensor) = info.readout.sensor() else {
         let problem = format!("names `{name}`, a read-out of type {}", info.kind);
-        let help = "a joint_angle, joint_rate, point or point_velocity: what depends on forces or \
-                    inputs would lead in a circle";
+        let help = "expected a joint_angle, joint_rate, point or point_velocity: read-outs of \
+            forces or inputs would form a cycle";
         return Err(table.refuse_value("over", &problem, help));
     };
     let curve = curve(table, Argument { unit: unit_over, name: "reading" }, unit)?;

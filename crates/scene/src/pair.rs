@@ -1,4 +1,4 @@
-//! Two bodies that an element joins.
+//! Two bodies that an element connects.
 
 use dbd_kernel::BodyIndex;
 
@@ -22,7 +22,7 @@ impl Pair {
         Self { a: self.b, b: self.a, names: [second, first] }
     }
 
-    /// What messages call the element of a table: `tsda 1 (world–crank)`.
+    /// The name of a table's element in messages: `tsda 1 (world–crank)`.
     pub(crate) fn label(&self, table: &Table<'_>) -> String {
         let [a, b] = &self.names;
         format!("{} ({a}–{b})", table.label())

@@ -1,18 +1,18 @@
-//! Which of a number of things hang together.
+//! Connected components (union-find).
 
-/// Things that are apart at first and are joined by pairs.
+/// Items that start separate and are joined in pairs.
 pub(crate) struct Parts {
-    /// Leads, in one step or more, to the lowest thing of its part.
+    /// Leads, in one or more steps, to the lowest item of its component.
     towards: Vec<usize>,
 }
 
 impl Parts {
-    /// So many things, all apart.
+    /// The given number of separate items.
     pub(crate) fn apart(count: usize) -> Self {
         Self { towards: (0..count).collect() }
     }
 
-    /// The lowest thing of a thing's part.
+    /// The lowest item of an item's component.
     pub(crate) fn first(&mut self, mut thing: usize) -> usize {
         while self.towards[thing] != thing {
             self.towards[thing] = self.towards[self.towards[thing]];
@@ -21,7 +21,7 @@ impl Parts {
         thing
     }
 
-    /// Joins the parts of two things; whether they were apart.
+    /// Joins the components of two items; returns whether they were separate.
     pub(crate) fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.first(a), self.first(b));
         self.towards[a.max(b)] = a.min(b);

@@ -1,4 +1,4 @@
-//! `[[point_on_line]]`: a point of the second body projected on a line of the first.
+//! `[[point_on_line]]`: a point of the second body projected onto a line of the first.
 
 use dbd_kernel::Vec3;
 
@@ -14,8 +14,7 @@ use crate::text::{Direction, Number, Table};
 pub(crate) const KEYS: &[&str] =
     &["name", "between", "line_point", "line_direction", "point", "free_length", "clearance"];
 
-/// A point nearer to its line than this share of the free length is on it: no direction leads
-/// from the line to the point.
+/// A point closer to its line than this fraction of the free length counts as on it and gives no direction.
 const COINCIDENT: f64 = 1e-9;
 
 /// Reads all points on lines in scene order and names them for messages.
@@ -39,9 +38,9 @@ pub(crate) fn read_all(
         if distance(assembly, &pair, (line_point, direction), tip) <= COINCIDENT * free_length
             && free_length > 0.0
         {
-            let help = "a point off the line, or `free_length = 0` for a spring that is isotropic \
-                        across the line and needs no direction";
-            let problem = "lies on the line, though it has a free length";
+            let help = "move the point off the line, or use `free_length = 0` for a spring that is \
+                isotropic across the line";
+            let problem = "lies on the line, but `free_length` is not 0";
             return Err(table.refuse_value("point", problem, help));
         }
         let points = Points { centres: &[line_point], tips: &[tip], shared: false };
@@ -53,7 +52,7 @@ pub(crate) fn read_all(
     Ok(labels)
 }
 
-/// \[m\] of a point of the second body from a line of the first.
+/// \[m\] distance of a point of the second body from a line of the first.
 fn distance(
     assembly: &Assembly,
     pair: &Pair,

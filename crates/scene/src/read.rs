@@ -63,7 +63,7 @@ impl Scene {
         }
     }
 
-    /// Reads a scene from its text; `file` is what messages call it.
+    /// Reads a scene from its text; `file` is its name in messages.
     ///
     /// # Errors
     /// Where the scene is refused.
@@ -72,12 +72,12 @@ impl Scene {
     }
 
     /// Reads a scene from its text with values changed by their paths, each `PATH=VALUE`
-    /// ([`parameters`]): `body.cart.mass=1.2`, `joint.*.stiffness=1e6`, `step=20us`. Later ones go
-    /// before earlier ones.
+    /// ([`parameters`]): `body.cart.mass=1.2`, `joint.*.stiffness=1e6`, `step=20us`. Later changes override earlier
+    /// ones.
     ///
     /// # Errors
-    /// Where a change leads nowhere or the changed scene is refused; what is wrong with a change is
-    /// shown in it, and [`SceneError::file`] is `--set` then.
+    /// Where a change refers to nothing or the changed scene is refused; an error in a change is shown in its text,
+    /// with `--set` as [`SceneError::file`].
     pub fn parse_with(
         text: &str,
         file: &str,
@@ -86,8 +86,8 @@ impl Scene {
         Self::read(text, file, changes, None, |_, _, _| Ok(())).map(|(scene, ())| scene)
     }
 
-    /// The long form of a scene: the text of one with the same bits whose every pose and place is a number in SI,
-    /// where the joints are closed, with the changes. Comments stay where what they stand at does.
+    /// The long form of a scene: a text with the same bits in which every pose and position is a number in SI, with
+    /// joints closed and changes applied. Comments stay where their item stays.
     ///
     /// # Errors
     /// As [`Scene::parse_with`].
@@ -102,14 +102,14 @@ impl Scene {
         Self::read(text, file, changes, None, write).map(|(_, text)| text)
     }
 
-    /// The long form of this scene as it is now, wherever its bodies are: states at t = 0 that are not those of the
-    /// file stand in `[start]`, and it does not settle again.
+    /// The long form of this scene in its current state: states at t = 0 that differ from the file are written to
+    /// `[start]`, and it does not settle again.
     ///
     /// # Errors
     /// None for a scene that was read from its text alone; else as [`Scene::parse_with`].
     pub fn long_text(&self) -> Result<String, SceneError> {
         let (file, text) = self.origin.file();
-        // What it says of settling has been done.
+        // Settling has already been done.
         let changes = self.changes.iter().filter(|change| !change.starts_with("settle="));
         let changes: Vec<&String> = changes.collect();
         let write = |_: &Self, root: &Table<'_>, resolved: &_| {
@@ -118,8 +118,8 @@ impl Scene {
         Self::read(text, file, &changes, None, write).map(|(_, text)| text)
     }
 
-    /// All numbers that the scene's file writes, with the changes, by their paths: what
-    /// [`Self::parse_with`] and [`Self::with`] can give otherwise.
+    /// All numbers written in the scene's file, with the changes, by their paths: the values that [`Self::parse_with`]
+    /// and [`Self::with`] can change.
     ///
     /// # Errors
     /// None for a scene that was read from its text alone; else as [`Self::parse_with`].
@@ -133,7 +133,7 @@ impl Scene {
         Self::read(text, file, &self.changes, Some(&log), list).map(|(_, numbers)| numbers)
     }
 
-    /// Reads a scene and does something while its tables are there, knowing what values stand for.
+    /// Reads a scene and calls a function while its tables and names are available.
     fn read<T>(
         text: &str,
         file: &str,

@@ -1,8 +1,7 @@
-//! `[[readout]]`: what a plant's sensors see.
+//! `[[readout]]`: the sensors of a plant.
 //!
-//! `table => read-out of the kernel`. Read-outs are no part of the model, but for an angle or its
-//! rate: where no torsion spring turns about the same axis, one without stiffness is added to
-//! count the turns.
+//! `table => read-out of the kernel`. Read-outs are not part of the model, except for angles and their rates: where no
+//! torsion spring has the same axis, one without stiffness is added to count revolutions.
 
 use dbd_kernel::index::LawIndex;
 use dbd_kernel::readouts::Readout;
@@ -26,9 +25,9 @@ pub struct ReadoutInfo {
     pub name: String,
     /// Its type as in the scene file, e.g. `joint_angle`.
     pub kind: &'static str,
-    /// The quantities it shows, in order: what follows its name, `""` or `".x"`, and the unit.
+    /// Its columns in order: the suffix of its name, `""` or `".x"`, and the unit.
     pub columns: Vec<(&'static str, &'static str)>,
-    /// What the kernel reads, in double precision.
+    /// The kernel's sensor, in double precision.
     pub readout: Readout<F64>,
 }
 
@@ -49,9 +48,9 @@ enum Columns {
     Vector(&'static str),
     /// Specific force and angular rate.
     Imu,
-    /// A number in the unit of the input that is shown.
+    /// A number in the unit of the input.
     Input,
-    /// A number in the unit of what an interaction shows.
+    /// A number in the unit of the interaction's quantity.
     Law,
 }
 
@@ -140,7 +139,7 @@ pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)>
     TYPES.iter().map(|kind| (kind.name, [KEYS, kind.keys].concat()))
 }
 
-/// Reads all read-outs in scene order, and names the torsion springs that were added for them.
+/// Reads all read-outs in scene order, and adds names for the torsion springs that they require.
 pub(crate) fn read_all(
     root: &Table<'_>,
     known: &mut Known<'_>,
@@ -172,8 +171,11 @@ pub(crate) fn read_all(
         for (end, _) in &columns {
             let column = format!("{name}{end}");
             if let Err(owner) = taken.take(column.clone(), table.label()) {
-                let problem = format!("makes a column `{column}` of the trace, as {owner} does");
-                let help = format!("another name, e.g. \"{}\"", another(&name, kind.name));
+                let problem = format!(
+                    "gives the trace a column `{column}`, which {owner} already \
+                    gives"
+                );
+                let help = format!("use another name, e.g. \"{}\"", another(&name, kind.name));
                 return Err(table.refuse_value("name", &problem, help));
             }
         }
@@ -182,12 +184,12 @@ pub(crate) fn read_all(
     Ok(infos)
 }
 
-/// A name like one that is taken: `tool` of a `point` becomes `tool_point`.
+/// A free name similar to a taken one: `tool` of a `point` becomes `tool_point`.
 fn another(name: &str, kind: &str) -> String {
     format!("{}_{kind}", name.replace('.', "_"))
 }
 
-/// Lets a table have the keys of its type: defaults of other types are not its.
+/// Restricts a table to the keys of its type; defaults of other types do not apply.
 pub(crate) fn allow(table: &Table<'_>) -> Result<(), SceneError> {
     table.only(&[KEYS, kind(table)?.keys])
 }
@@ -219,7 +221,7 @@ fn point(
     Ok((body, F64::local_from_f64(point.to_f64())))
 }
 
-/// The row of an interaction, the place of what it shows and its unit.
+/// The row of an interaction, the index of the quantity and its unit.
 fn quantity(
     table: &Table<'_>,
     known: &Known<'_>,
@@ -229,10 +231,10 @@ fn quantity(
     let row = if let Target::Interaction(row) = target { row } else { usize::MAX };
     let quantities = known.quantities.get(row).copied().unwrap_or_default();
     if quantities.is_empty() {
-        let help = "an interaction whose law has quantities";
+        let help = "expected an interaction whose law has quantities";
         return Err(table.refuse_value(
             "target",
-            &format!("names `{name}`, which shows nothing"),
+            &format!("names `{name}`, whose law has no quantities"),
             help,
         ));
     }
@@ -247,9 +249,12 @@ fn tsda_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, Scen
     let group = group_of(target, known);
     let directed = known.assembly.size(group) > 0.0;
     if !directed {
-        let problem = format!("names the tsda `{name}`, which has no free length and no direction");
-        let help = "a tsda with `free_length` > 0; `type = \"joint_force\"` shows the force of one \
-                    without as a vector";
+        let problem = format!(
+            "names the tsda `{name}`, which has no direction because its free \
+            length is 0"
+        );
+        let help = "use a tsda with `free_length` > 0, or `type = \"joint_force\"`, which gives \
+            the force as a vector";
         return Err(table.refuse_value("target", &problem, help));
     }
     Ok(Readout::TsdaForce { group: group as u16, element: 0 })
@@ -261,7 +266,7 @@ fn joint_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, Sce
     Ok(Readout::JointForce { group: group_of(target, known) as u16 })
 }
 
-/// The group of an element; of a joint the last, which acts on its second body.
+/// The group of an element; for a joint the last one, which acts on its second body.
 fn group_of(target: Target, known: &Known<'_>) -> usize {
     match target {
         Target::Joint(joint) => {
@@ -277,7 +282,7 @@ fn input<'i>(table: &Table<'_>, inputs: &'i [InputInfo]) -> Result<&'i InputInfo
     inputs.iter().find(|input| input.name == name).ok_or_else(|| {
         let help = match nearest(&name, inputs.iter().map(|input| input.name.as_str())) {
             Some(meant) => format!("did you mean \"{meant}\"?"),
-            None => "it must be the name of an input".into(),
+            None => "expected the name of an input".into(),
         };
         table.refuse_value("target", &format!("names no input: \"{name}\""), help)
     })

@@ -1,6 +1,6 @@
-//! A model whose sizes are known at run time: vectors behind the kernel's slices.
+//! A model whose sizes are known at run time: vectors for the kernel's slices.
 //!
-//! `assembly => model in any precision`. Steps through the very code and bits of a const model.
+//! `assembly => model in any precision`. Steps run the same code, with the same bits, as for a const model.
 
 use dbd_kernel::body::Body;
 use dbd_kernel::elements::input::{Input, Knot};
@@ -29,9 +29,9 @@ pub struct SceneModel<P: Geometry> {
     pub bodies: Vec<Body<P::Space>>,
     /// The bodies' states at t = 0.
     pub initial: Vec<BodyState<P>>,
-    /// \[m/s²\] the field of gravity, or nothing.
+    /// \[m/s²\] gravity, or empty.
     pub gravity: Vec<P::Vector>,
-    /// Groups in the order of their records' sums.
+    /// Groups in the order in which their forces are summed.
     pub groups: Vec<Group>,
     /// \[m\] points of the groups, in the axes of their bodies.
     pub points: Vec<P::Local>,
@@ -61,12 +61,12 @@ pub struct SceneModel<P: Geometry> {
     pub sources: Vec<Source<P>>,
     /// The list of laws, summed after all torsion springs.
     pub laws: LawList<P>,
-    /// The plan of a matrix, empty but for a scheme that has one; see [`Self::planned`].
+    /// The elimination order; empty except for schemes with a matrix; see [`Self::planned`].
     pub plan: Elimination,
 }
 
 impl<P: Geometry> SceneModel<P> {
-    /// The same model in another precision: stored constants rounded once, derived ones anew.
+    /// The same model in another precision: stored constants are rounded once, derived ones recomputed.
     #[must_use]
     pub fn convert<Q: Geometry>(&self) -> SceneModel<Q> {
         SceneModel {
@@ -92,8 +92,8 @@ impl<P: Geometry> SceneModel<P> {
         }
     }
 
-    /// The same model with a plan for the matrix of an implicit scheme; unchanged where there are more pairs
-    /// of bodies than an index counts.
+    /// The same model with an elimination order for an implicit scheme; unchanged where the pairs of bodies exceed the
+    /// range of an index.
     #[must_use]
     pub fn planned(self) -> Self {
         let plan = Elimination::of(self.bodies.len(), &self.groups, &self.torsions, &self.laws);
@@ -101,7 +101,7 @@ impl<P: Geometry> SceneModel<P> {
         Self { plan, ..self }
     }
 
-    /// The first input whose value or table the precision cannot hold.
+    /// The first input whose value or table the precision cannot represent.
     #[must_use]
     pub fn unfit_input(&self) -> Option<InputIndex> {
         let of_source = |row: usize| self.sources.iter().find(|s| usize::from(s.input.0) == row);
@@ -113,8 +113,8 @@ impl<P: Geometry> SceneModel<P> {
         Some(InputIndex(row as u16))
     }
 
-    /// Takes an input from its table or its source, so that the caller drives it; it starts at the
-    /// table's first value, after a sine at its offset.
+    /// Detaches an input from its table or source, so that the caller sets it; it starts at the table's first value, or
+    /// at the offset of a sine.
     pub fn release(&mut self, input: InputIndex) {
         let row = self.sources.iter().position(|source| source.input == input);
         let source = row.map(|row| self.sources.remove(row));
@@ -131,7 +131,7 @@ impl<P: Geometry> SceneModel<P> {
         }
     }
 
-    /// [`Self::release`]s every input; the model holds no table then.
+    /// Calls [`Self::release`] on every input; the model then contains no tables.
     pub fn release_all(&mut self) {
         (0..self.inputs.len()).for_each(|row| self.release(InputIndex(row as u16)));
         self.inputs.iter_mut().for_each(|input| input.knot = 0);

@@ -1,7 +1,6 @@
-//! A scene that was read: its model with the names, places and lines that go with it.
+//! A scene that was read: its model with names, points and line numbers.
 //!
-//! Data and what shows them; what makes a scene is in [`read`](crate::read), what judges one in functions of
-//! `&Scene`.
+//! Data and accessors only; [`read`](crate::read) creates scenes, checks are functions of `&Scene`.
 
 use std::borrow::Cow;
 
@@ -29,71 +28,70 @@ use crate::written::WrittenAngle;
 pub struct Scene {
     /// The scene's name.
     pub name: String,
-    /// What it is, free text; empty where the file gives none.
+    /// Description in free text; empty by default.
     pub description: String,
     /// \[s\] simulated time.
     pub duration: f64,
-    /// \[s\] the step, where the scene gives one.
+    /// \[s\] step size, if given in the scene.
     pub step: Option<f64>,
-    /// \[s\] the sampling interval, where the scene gives one.
+    /// \[s\] sampling interval, if given in the scene.
     pub every: Option<f64>,
     /// Names of the bodies in the model's order, spiders after those of the scene file.
     pub body_names: Vec<String>,
     /// The joints in scene order.
     pub joints: Vec<JointInfo>,
-    /// What was moved to close its joints, where it has a table `assemble`.
+    /// The bodies moved to close its joints, with a table `assemble`.
     pub assembled: Option<Assembled>,
-    /// What was moved to bring it to rest, where it says `settle = true`.
+    /// The bodies moved to bring it to rest, with `settle = true`.
     pub settled: Option<Settled>,
-    /// What messages call the torsion springs, in the model's order:
-    /// `torsion_spring 1 (world–crank)`; after those of the scene file the ones that count the
-    /// turns of a read-out's joint.
+    /// Names of the torsion springs in messages, in the model's order: `torsion_spring 1 (world–crank)`; those that
+    /// count revolutions for a read-out follow those of the scene file.
     pub torsion_names: Vec<String>,
     /// The inputs in scene order.
     pub inputs: Vec<InputInfo>,
     /// The read-outs in scene order.
     pub readouts: Vec<ReadoutInfo>,
-    /// What bodies and the ground look like, in scene order; the model knows nothing of it.
+    /// Appearance of bodies and the ground, in scene order; not part of the model.
     pub geometry: Vec<GeometryInfo>,
-    /// What came of bodies whose mass, inertia or axes are not written as numbers, in scene order.
+    /// Derived values of bodies whose mass, inertia or axes are not written as numbers, in scene order.
     pub derived: Vec<DerivedBody>,
-    /// The values that `[parameters]` names, in the order of the file, as they are with the changes.
+    /// The values of `[parameters]`, in the order of the file, with changes applied.
     pub parameters: Vec<Parameter>,
-    /// The changes of the file's values as they were given, each `PATH=VALUE`.
+    /// The changes of the file's values as given, each `PATH=VALUE`.
     pub changes: Vec<String>,
-    /// What they changed.
+    /// The effects of the changes.
     pub changed: Vec<Changed>,
     /// The assembled model in double precision; every other precision is a rounding of it.
     pub model: SceneModel<F64>,
-    /// The scene in its plane, where it says `planar = true`: what steps is this model then.
+    /// The scene in its plane, with `planar = true`; this model is then stepped.
     pub planar: Option<Planar>,
-    /// The states at which joints are assembled: those at t = 0 but for `start` and `settle`.
+    /// The states at which joints are assembled: those at t = 0 without `start` and `settle`.
     pub(crate) assembled_states: Vec<BodyState<F64>>,
     pub(crate) file_lines: FileLines,
     pub(crate) origin: Origin,
     pub(crate) written_angles: Vec<WrittenAngle>,
-    /// What messages call raw TSDAs, then points on lines.
+    /// Names of raw TSDAs, then points on lines, in messages.
     pub(crate) raw_names: Vec<String>,
-    /// What messages call the interactions, in the order of the model's laws.
+    /// Names of the interactions in messages, in the order of the model's laws.
     pub(crate) law_names: Vec<String>,
     /// The numbers of their tables.
     pub(crate) law_places: Vec<LawPlace>,
 }
 
-/// What was moved to bring a scene to rest.
+/// The result of bringing a scene to rest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settled {
     /// The bodies that were moved, in the order of the scene.
     pub moved: Vec<Moved>,
-    /// Steps that were computed.
+    /// Number of computed steps.
     pub iterations: usize,
-    /// \[N\] the largest force on a body at the pose of rest, of a planar scene in its plane.
+    /// \[N\] largest force on a body at rest; for a planar scene in its plane.
     pub force: f64,
-    /// \[N·m\] the largest torque on a body there.
+    /// \[N·m\] largest torque on a body at rest.
     pub torque: f64,
 }
 
-/// A name that a scene does not have.
+/// An unknown name in a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the scene `{scene}` has no {kind} `{name}`{}", .meant.as_ref().map_or(String::new(), |m| format!("; did you mean `{m}`?")))]
 pub struct UnknownName {
@@ -101,27 +99,27 @@ pub struct UnknownName {
     pub scene: String,
     /// `input` or `readout`.
     pub kind: &'static str,
-    /// The name that was asked for.
+    /// The unknown name.
     pub name: String,
-    /// The one that was probably meant.
+    /// The suggested name.
     pub meant: Option<String>,
 }
 
 impl Scene {
-    /// The refusal of a setting of the scene file at its place there: what was asked for elsewhere,
-    /// a duration, a step, does not go with it. `None` where the file does not give it.
+    /// The error of a setting in the scene file that conflicts with a value given elsewhere, at its position in the
+    /// file. `None` where the file does not give the setting.
     #[must_use]
     pub fn refuse(&self, setting: Setting, message: &str, help: &str) -> Option<SceneError> {
         self.origin.refuse(setting, message, help)
     }
 
-    /// The model that steps: of a planar scene the one in its plane, whose axes are not the world's.
+    /// The model that is stepped; for a planar scene the one in its plane, whose axes are not the world's.
     #[must_use]
     pub fn stepped(&self) -> &SceneModel<F64> {
         self.planar.as_ref().map_or(&self.model, |planar| &planar.model)
     }
 
-    /// The elements that step, in the world's axes: those of [`Self::stepped`] where the scene is planar.
+    /// The elements that are stepped, in the world's axes: those of [`Self::stepped`] for a planar scene.
     #[must_use]
     pub fn in_world(&self) -> Cow<'_, SceneModel<F64>> {
         match &self.planar {
@@ -130,7 +128,7 @@ impl Scene {
         }
     }
 
-    /// Takes every input from its table, so that the caller drives it, as [`SceneModel::release_all`].
+    /// Detaches every input from its table, so that the caller sets it; see [`SceneModel::release_all`].
     pub fn release_all(&mut self) {
         self.model.release_all();
         if let Some(planar) = &mut self.planar {
@@ -138,40 +136,40 @@ impl Scene {
         }
     }
 
-    /// What messages call the raw TSDAs, then the points on lines, in the order of their groups:
+    /// Names of the raw TSDAs, then the points on lines, in messages, in the order of their groups:
     /// "tsda `strut` (shell–knuckle)".
     #[must_use]
     pub fn raw_names(&self) -> &[String] {
         &self.raw_names
     }
 
-    /// What messages call the interactions, in the order of the model's rows of laws:
-    /// "interaction `stop` (world–bar)".
+    /// Names of the interactions in messages, in the order of the model's rows of laws: "interaction `stop`
+    /// (world–bar)".
     #[must_use]
     pub fn law_names(&self) -> &[String] {
         &self.law_names
     }
 
-    /// Torsion springs of the scene file, without those that only count turns.
+    /// Number of torsion springs of the scene file, without those that only count revolutions.
     #[must_use]
     pub fn torsion_springs(&self) -> usize {
         self.file_lines.torsion_springs.len()
     }
 
-    /// The input of a name, to set it on a plant.
+    /// The input with a name, to set it on a plant.
     ///
     /// # Errors
-    /// Where the scene has none of that name.
+    /// Where the name is unknown.
     pub fn input(&self, name: &str) -> Result<InputIndex, UnknownName> {
         let names = self.inputs.iter().map(|input| input.name.as_str());
         let found = self.inputs.iter().find(|input| input.name == name);
         found.map(|input| input.index).ok_or_else(|| self.unknown("input", name, names))
     }
 
-    /// The read-out of a name, to read it from a plant.
+    /// The read-out with a name, to read it from a plant.
     ///
     /// # Errors
-    /// Where the scene has none of that name.
+    /// Where the name is unknown.
     pub fn readout(&self, name: &str) -> Result<Readout<F64>, UnknownName> {
         let names = self.readouts.iter().map(|readout| readout.name.as_str());
         let found = self.readouts.iter().find(|readout| readout.name == name);
@@ -190,7 +188,7 @@ impl Scene {
         columns
     }
 
-    /// The name of a body of the model; empty where it has none such.
+    /// The name of a body of the model; empty for an invalid index.
     #[must_use]
     pub fn body_name(&self, row: usize) -> &str {
         self.body_names.get(row).map_or("", String::as_str)
@@ -219,7 +217,8 @@ impl Scene {
     }
 
     /// The line of the scene file, from 1, on which an element begins: rows of
-    /// [`element_frequencies`](crate::element_frequencies) and [`element_dampings`](crate::element_dampings). Springs that only count turns have none.
+    /// [`element_frequencies`](crate::element_frequencies) and [`element_dampings`](crate::element_dampings). Springs
+    /// that only count revolutions have none.
     #[must_use]
     pub fn line_of_element(&self, row: usize) -> Option<usize> {
         let lines = &self.file_lines;
@@ -231,7 +230,7 @@ impl Scene {
         kinds.into_iter().flatten().nth(row).copied()
     }
 
-    /// The line of the scene file, from 1, on which a body begins, or the joint that brings it.
+    /// The line of the scene file, from 1, on which a body begins, or the joint that creates it.
     #[must_use]
     pub fn line_of_body(&self, row: usize) -> Option<usize> {
         self.file_lines.bodies.get(row).copied().or_else(|| {

@@ -1,10 +1,10 @@
 //! `settle = true`: static equilibrium under load, before t = 0.
 //!
-//! `model => poses at which no body is pushed or turned`. Pseudo-transient continuation (Kelley & Keyes 1998):
+//! `model => poses of static equilibrium`. Pseudo-transient continuation (Kelley & Keyes 1998):
 //! implicit Euler steps of a motion without inertia, `(M/τ + K)·δ = F`, K = −∂F/∂q by central differences and
-//! made symmetric, τ growing from step to step. A step is taken only where the matrix is positive definite, so the
-//! motion runs downhill, to a stable equilibrium. A planar scene rests in its plane, whose model steps. One written order
-//! of sums: the same bits on every host.
+//! symmetrised, τ growing from step to step. A step is accepted only where the matrix is positive definite, so the
+//! motion descends to a stable equilibrium. A planar scene settles with its planar model. Sums have a fixed order: the
+//! same bits on every host.
 
 use dbd_kernel::{Body, F64, Quaternion, State, Vec3, forces};
 use miette::Diagnostic;
@@ -18,22 +18,22 @@ use crate::runtime::SceneModel;
 use crate::scene::{Scene, Settled};
 use crate::text::Table;
 
-/// Most steps.
+/// Maximum number of steps.
 const STEPS: usize = 500;
 
-/// \[rad; share of the model's size\] the largest turn and shift of a step.
+/// \[rad; fraction of the model's size\] largest rotation and displacement of a step.
 const LARGEST: f64 = 0.2;
 
-/// \[rad; share of the model's size\] the step of the differences.
+/// \[rad; fraction of the model's size\] step of the central differences.
 const DIFFERENCE: f64 = 1e-6;
 
-/// \[rad; share of the model's size\] a step below which nothing moves any more.
+/// \[rad; fraction of the model's size\] convergence limit of a step.
 const STILL: f64 = 1e-12;
 
-/// The same where steps shrink no further: the rounding of forces moves what is held softly.
+/// The same where steps no longer shrink: rounding of forces moves softly supported bodies.
 const ROUNDED: f64 = 1e-8;
 
-/// Unknowns of a body in space, and in the plane z = 0: shifts, then turns.
+/// Unknowns of a body in space, and in the plane z = 0: displacements, then rotations.
 const SPACE: &[usize] = &[0, 1, 2, 3, 4, 5];
 const PLANE: &[usize] = &[0, 1, 5];
 
@@ -44,19 +44,19 @@ const GROWTH: f64 = 4.0;
 #[derive(Clone, Debug, PartialEq, Error, Diagnostic)]
 pub enum Restless {
     /// Too many bodies.
-    #[error("{bodies} bodies are too many to bring to rest: at most {MOST_BODIES}")]
-    #[diagnostic(help("bring the scene to rest in parts, or write the poses"))]
+    #[error("cannot bring {bodies} bodies to rest: the limit is {MOST_BODIES}")]
+    #[diagnostic(help("bring the scene to rest in parts, or give the poses"))]
     TooMany {
-        /// How many there are.
+        /// Number of bodies.
         bodies: usize,
     },
     /// A body keeps moving.
     #[error(
-        "no pose of equilibrium: nothing holds `{body}`, which is accelerated by {acceleration:.3e} m/s² and \
-         {angular:.3e} rad/s²"
+        "no equilibrium found: nothing holds `{body}`, which accelerates at {acceleration:.3e} \
+         m/s² and {angular:.3e} rad/s²"
     )]
     #[diagnostic(help(
-        "a spring, a joint or a stop that holds it against gravity, loads and inputs"
+        "add a spring, joint or stop that holds it against gravity, loads and inputs"
     ))]
     NotHeld {
         /// The body that moves most.
@@ -68,14 +68,14 @@ pub enum Restless {
     },
     /// A torsion spring has no angle.
     #[error(
-        "no pose of equilibrium: the search meets a pose at which a torsion angle is undefined"
+        "no equilibrium found: the search reaches a pose at which a torsion angle is undefined"
     )]
-    #[diagnostic(help("poses nearer to the equilibrium"))]
+    #[diagnostic(help("give poses closer to the equilibrium"))]
     Undefined,
 }
 
-/// The scene at rest where the forces at t = 0 balance, with what was moved in [`Scene::settled`]. Velocities
-/// of the scene are left out.
+/// The scene in equilibrium with the forces at t = 0; [`Scene::settled`] lists the moved bodies. Initial velocities are
+/// dropped.
 ///
 /// # Errors
 /// Where it has more than 200 bodies, nothing holds a body, or a torsion angle becomes undefined.
@@ -86,14 +86,14 @@ pub fn relaxed(scene: &Scene) -> Result<Scene, Restless> {
         (state.velocity, state.angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
     }
     scene.settled = Some(rest(&mut scene)?);
-    // What is written reads back to the same bits.
+    // Normalise so that written states read back to the same bits.
     for state in &mut scene.model.initial {
         state.orientation = Quaternion::from_f64(settled(state.orientation.to_f64()));
     }
     Ok(scene)
 }
 
-/// Moves the bodies of a scene that says `settle = true` to where they rest.
+/// Moves the bodies of a scene with `settle = true` to equilibrium.
 pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, SceneError> {
     let refuse = |problem: String, help: &str| root.refuse_value("settle", &problem, help);
     let names = &scene.body_names;
@@ -103,26 +103,27 @@ pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, Sce
             > 0.0
     };
     if let Some(row) = (0..names.len()).find(is_moving) {
-        let problem = format!("is to bring `{}` to rest, which is given a velocity", names[row]);
-        return Err(refuse(problem, "either `settle`, or velocities and `rates`"));
+        let problem =
+            format!("cannot bring `{}` to rest, which has an initial velocity", names[row]);
+        return Err(refuse(problem, "use either `settle`, or velocities and `rates`"));
     }
     rest(scene).map_err(|restless| match restless {
         Restless::TooMany { bodies } => {
-            let problem = format!("is to bring {bodies} bodies to rest");
-            refuse(problem, &format!("at most {MOST_BODIES}; write the poses instead"))
+            let problem = format!("cannot bring {bodies} bodies to rest");
+            refuse(problem, &format!("the limit is {MOST_BODIES}; give the poses instead"))
         }
         Restless::NotHeld { body, .. } => {
-            let problem = format!("finds no pose at which `{body}` rests");
-            refuse(problem, "a spring, a joint or a stop that holds it against gravity and loads")
+            let problem = format!("finds no pose at which `{body}` is at rest");
+            refuse(problem, "add a spring, joint or stop that holds it against gravity and loads")
         }
         Restless::Undefined => {
-            let problem = "meets a pose at which a torsion spring's twist is undefined".to_owned();
-            refuse(problem, "poses nearer to the equilibrium")
+            let problem = "reaches a pose at which a torsion angle is undefined".to_owned();
+            refuse(problem, "give poses closer to the equilibrium")
         }
     })
 }
 
-/// Moves the bodies of a scene without velocities to where they rest.
+/// Moves the bodies of a scene without velocities to equilibrium.
 fn rest(scene: &mut Scene) -> Result<Settled, Restless> {
     let model = scene.stepped();
     if model.bodies.len() > MOST_BODIES {
@@ -162,7 +163,7 @@ fn rest(scene: &mut Scene) -> Result<Settled, Restless> {
     Ok(Settled { moved, iterations, force, torque })
 }
 
-/// How a search ends.
+/// The result of a search.
 enum End {
     AtRest,
     /// The body that moves most.
@@ -219,7 +220,7 @@ impl<'m> Search<'m> {
                 *pose = pose.moved(shift, turn);
             }
             let is_still = largest <= STILL || (largest <= ROUNDED && 2.0 * largest >= before);
-            // Only where τ no longer holds the motion back.
+            // Only once τ no longer limits the motion.
             if is_still && (tau >= 1.0 || largest == 0.0) {
                 return End::AtRest;
             }
@@ -229,7 +230,7 @@ impl<'m> Search<'m> {
         End::Moving(worst)
     }
 
-    /// The forces \[N\] and torques \[N·m, world axes\] on the bodies; `None` where a twist is undefined.
+    /// The forces \[N\] and torques \[N·m, world axes\] on the bodies; `None` where a torsion angle is undefined.
     fn wrenches(&mut self) -> Option<Vec<[Vec3<f64>; 2]>> {
         let size = self.size;
         let forces = self.forces(&self.poses.clone())?;
@@ -257,7 +258,7 @@ impl<'m> Search<'m> {
         Some([length(force) / body.mass, length(angular)])
     }
 
-    /// \[N\] on all bodies, torques over the size; `None` where a twist is undefined.
+    /// \[N\] on all bodies, torques over the size; `None` where a torsion angle is undefined.
     fn forces(&mut self, poses: &[Pose]) -> Option<Vec<f64>> {
         for (state, pose) in self.state.bodies.iter_mut().zip(poses) {
             (state.position, state.orientation) = (pose.position, pose.orientation);
@@ -308,7 +309,7 @@ impl<'m> Search<'m> {
         solve(matrix, force)
     }
 
-    /// The shift \[m\] and the turn \[rad\] of a body's unknowns.
+    /// The displacement \[m\] and rotation \[rad\] of a body's unknowns.
     fn split(&self, own: &[f64]) -> [Vec3<f64>; 2] {
         let mut all = [0.0; 6];
         for (axis, value) in self.unknowns.iter().zip(own) {
@@ -318,14 +319,14 @@ impl<'m> Search<'m> {
         [Vec3::new(x, y, z), Vec3::new(a, b, c) * (1.0 / self.size)]
     }
 
-    /// The largest shift over the size, or turn \[rad\], and the body.
+    /// The largest displacement over the size, or rotation \[rad\], and its body.
     fn largest(&self, step: &[f64]) -> (f64, usize) {
         let sizes = step.chunks_exact(self.unknowns.len()).map(|own| {
             let [shift, turn] = self.split(own).map(length);
             let shift = shift / self.size;
             if shift > turn { shift } else { turn }
         });
-        // What is no number is the largest.
+        // NaN counts as the largest.
         sizes.enumerate().fold(
             (0.0, 0),
             |best, (row, size)| {
@@ -340,7 +341,7 @@ fn largest_moment(body: &Body<f64>) -> f64 {
     body.inertia.to_f64().into_iter().fold(0.0, f64::max)
 }
 
-/// Solves a symmetric system whose lower half is given, by Cholesky's method.
+/// Solves a symmetric system given by its lower half, by Cholesky decomposition.
 fn solve(mut matrix: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
     let count = right.len();
     for i in 0..count {

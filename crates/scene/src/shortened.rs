@@ -1,11 +1,11 @@
-//! Texts as messages quote them: what a file or a command line may hold at any length.
+//! Shortened texts for messages: a file or command line may contain texts of any length.
 
 use std::borrow::Cow;
 
-/// Characters that a message quotes of a text: more than any name has that was meant.
+/// Most characters of a quoted text; longer than any sensible name.
 const MOST: usize = 80;
 
-/// A text, its end left out where it is long.
+/// A text, truncated if it is long.
 #[must_use]
 pub fn shortened(text: &str) -> Cow<'_, str> {
     match text.char_indices().nth(MOST) {

@@ -1,28 +1,28 @@
-//! What single precision holds of places and turns, and whether a body starts too slowly for it.
+//! Resolution of positions and orientations in single precision, and whether a body starts too slowly for it.
 //!
-//! `(state at t = 0, step) => a sentence`. A step adds h·v to a position: rounding takes or gives up to half of
-//! the position's last digit, step after step the same way while the velocity hardly changes.
+//! `(state at t = 0, step) => a sentence`. A step adds h·v to a position; rounding changes it by up to half of its last
+//! digit, in the same direction every step while the velocity hardly changes.
 
 use dbd_kernel::State;
 
 use crate::scene::Scene;
 use crate::time::{display, rounded};
 
-/// \[rad\] by so much the last digit of a unit quaternion in single precision turns a body.
+/// \[rad\] rotation of a body by the last digit of a unit quaternion in single precision.
 pub const LAST_TURN: f64 = f32::EPSILON as f64;
 
-/// \[1\] Largest share of a body's motion that rounding may change, at the velocity of t = 0, without a warning.
+/// \[1\] Largest fraction of a body's motion that rounding may change, at the velocity of t = 0, without a warning.
 const TOLD: f64 = 0.1;
 
-/// \[m\] the last digit of a position in single precision, that of its largest coordinate.
+/// \[m\] last digit of a position in single precision, for its largest coordinate.
 #[must_use]
 pub fn last_digit(position: [f64; 3]) -> f64 {
     let largest = position.iter().fold(0.0, |most: f64, c| most.max(c.abs())) as f32;
     f64::from(largest.next_up()) - f64::from(largest)
 }
 
-/// The body that starts slowest for a step of `step` \[s\] in single precision, where that is too slow; `whose`
-/// step it is begins the sentence: `the step`.
+/// The warning about the slowest body for a step of `step` \[s\] in single precision, if it is too slow; `whose` begins
+/// the sentence: `the step`.
 #[must_use]
 pub fn slow_start(scene: &Scene, step: f64, whose: &str) -> Option<String> {
     let length = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
@@ -38,9 +38,9 @@ pub fn slow_start(scene: &Scene, step: f64, whose: &str) -> Option<String> {
     let (name, speed, digit, unit, share) = moving.max_by(|a, b| a.4.total_cmp(&b.4))?;
     (share > TOLD).then(|| {
         format!(
-            "{whose} of {} is short for single precision: body `{name}` starts at {} {unit}/s, and its \
-             {} is held to {} {unit}: as long as it is so slow, {} of its motion may be lost; a longer step, \
-             or the precision fixed",
+            "{whose} of {} is too short for single precision: body `{name}` starts at {} {unit}/s, \
+             but its {} is resolved to {} {unit}, so {} of its motion may be lost at this \
+             velocity; use a longer step or the precision fixed",
             display(step),
             two(speed),
             if unit == "m" { "position" } else { "orientation" },
@@ -50,7 +50,7 @@ pub fn slow_start(scene: &Scene, step: f64, whose: &str) -> Option<String> {
     })
 }
 
-/// A number with two digits.
+/// A number with two significant digits.
 fn two(number: f64) -> String {
     format!("{:?}", rounded(number, 2))
 }

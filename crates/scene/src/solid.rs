@@ -1,4 +1,4 @@
-//! Solids that pictures show.
+//! Solids shown in pictures.
 
 /// A solid, in the axes of its body from its centre of mass.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,14 +14,14 @@ pub enum Solid {
     },
     /// A cylinder with flat ends.
     Cylinder {
-        /// \[m\] the middles of its two ends, apart.
+        /// \[m\] the distinct centres of its two ends.
         ends: [[f64; 3]; 2],
         /// \[m\], > 0.
         radius: f64,
     },
     /// A rod with round ends.
     Link {
-        /// \[m\] the centres of its two ends, apart.
+        /// \[m\] the distinct centres of its two ends.
         ends: [[f64; 3]; 2],
         /// \[m\], > 0.
         radius: f64,

@@ -1,6 +1,6 @@
 //! Stiffness and damping, the keys that joints, raw TSDAs and torsion springs share.
 //!
-//! `clearance` belongs to those of them that list it among their own keys.
+//! `clearance` is available where the element lists it among its keys.
 //!
 //! `stiffness = k` or `{ load, deflection }` with `k = load/deflection`; `damping = c`, or
 //! `damping_ratio = ζ` with `frequency = f`: `c = (2·ζ·k)/(2π·f)`.
@@ -11,7 +11,7 @@ use crate::text::{Kind, Number, Table, Value};
 /// The keys of a spring.
 pub(crate) const KEYS: &[&str] = &["stiffness", "damping", "damping_ratio", "frequency"];
 
-/// The keys of a stiffness by what a load does.
+/// The keys of a stiffness given by load and deflection.
 pub(crate) const BY_LOAD: &[&str] = &["load", "deflection"];
 
 /// A spring and its damper.
@@ -59,16 +59,16 @@ pub(crate) fn read(table: &Table<'_>, units: Units) -> Result<Spring, SceneError
             return Err(table.refuse_key("damping_ratio", "contradicts `damping`", help));
         }
         (None, Some(_), None) => {
-            let help = "add `frequency`, the frequency in Hz at which the ratio holds";
-            return Err(table.refuse_key("damping_ratio", "stands without `frequency`", help));
+            let help = "add `frequency`, the frequency in Hz at which the ratio applies";
+            return Err(table.refuse_key("damping_ratio", "needs `frequency`", help));
         }
         (_, None, Some(_)) => {
-            let help = "`frequency` belongs to `damping_ratio`; `damping` needs none";
-            return Err(table.refuse_key("frequency", "stands without `damping_ratio`", help));
+            let help = "add `damping_ratio`, or omit `frequency`; `damping` needs none";
+            return Err(table.refuse_key("frequency", "needs `damping_ratio`", help));
         }
     };
     if !damping.is_finite() {
-        let help = "a larger `frequency` or a smaller `damping_ratio`";
+        let help = "use a larger `frequency` or a smaller `damping_ratio`";
         return Err(table.refuse_key("damping_ratio", "gives an infinite damping", help));
     }
     let clearance = table.optional("clearance", Number::not_negative("m"))?.unwrap_or(0.0);

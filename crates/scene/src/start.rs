@@ -1,8 +1,8 @@
 //! `[start.BODY]`: the state of a body at t = 0 where it differs from the one at which the joints are assembled.
 //!
-//! `tables => initial states`, in the plane, too, of a planar scene, which is reduced where its joints are closed.
-//! Joints, free lengths and angles are those of the poses of `[[body]]`. A body with a table here starts without the
-//! velocities that `[[body]]` gives it.
+//! `tables => initial states`; for a planar scene also in the plane, to which it is reduced at the assembled pose.
+//! Joints, free lengths and angles refer to the poses of `[[body]]`. A body with a table here ignores the velocities of
+//! `[[body]]`.
 
 use dbd_kernel::{BodyIndex, BodyState, F64, Quaternion, Vec3};
 
@@ -15,7 +15,7 @@ use crate::text::{Number, Numbers, Table};
 /// The keys of a body's table.
 pub(crate) const KEYS: &[&str] = &["position", "orientation", "velocity", "angular_velocity"];
 
-/// The states at t = 0 that a scene gives, with their bodies' rows.
+/// The states at t = 0 given in a scene, with their bodies' rows.
 pub(crate) fn read(
     root: &Table<'_>,
     assembly: &Assembly,
@@ -25,10 +25,11 @@ pub(crate) fn read(
     let mut states = Vec::new();
     for (_, name, value) in start.values() {
         let Some(row) = assembly.body_names().iter().position(|known| known == name) else {
-            let help = "the name of a body, spiders as `JOINT.spider`, in quotes where it has a space or a point";
-            return Err(start.refuse_key(name, "is no body of the scene", help));
+            let help = "use the name of a body, or `JOINT.spider` for a spider; quote a name that \
+                contains a space or a dot";
+            return Err(start.refuse_key(name, "is not a body of the scene", help));
         };
-        let table = value.table("a table of a state")?.called(&format!("[start.{name}]"));
+        let table = value.table("a table with a state")?.called(&format!("[start.{name}]"));
         table.only(&[KEYS])?;
         let body = BodyIndex(row as u16);
         let given = assembly.states()[row];
@@ -52,10 +53,10 @@ pub(crate) fn read(
     Ok(states)
 }
 
-/// How far \[share of the size, rad\] a state of a planar scene may leave its plane.
+/// Largest departure \[fraction of the size, rad\] of a state from the plane of a planar scene.
 const ALIKE: f64 = 1e-9;
 
-/// Gives the bodies of a scene the states at t = 0 that it says.
+/// Sets the given states at t = 0.
 pub(crate) fn apply(
     root: &Table<'_>,
     scene: &mut Scene,
@@ -65,7 +66,7 @@ pub(crate) fn apply(
         if let Some(planar) = &mut scene.planar {
             if planar.plane.leaves(row, &state, ALIKE) {
                 let problem = format!("moves `{}` out of its plane", scene.body_names[row]);
-                let help = "a state in the plane, or a scene without `planar = true`";
+                let help = "give a state in the plane, or omit `planar = true`";
                 return Err(root.refuse_value("start", &problem, help));
             }
             planar.model.initial[row] = planar.plane.state_inward(row, &state);

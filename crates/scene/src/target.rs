@@ -1,4 +1,4 @@
-//! What inputs and read-outs act on: joints and other elements by their names.
+//! Named elements that inputs and read-outs refer to.
 
 use crate::error::SceneError;
 use crate::names::Names;
@@ -6,7 +6,7 @@ use crate::nearest::nearest;
 use crate::shortened::shortened;
 use crate::text::{Kind, Value};
 
-/// The names of joints, raw TSDAs, points on lines and torsion springs: no two are alike.
+/// The names of joints, raw TSDAs, points on lines and torsion springs; all are unique.
 pub(crate) type Elements = Names<Target>;
 
 /// A named element.
@@ -24,7 +24,7 @@ pub(crate) enum Target {
     Interaction(usize),
 }
 
-/// Kinds of element that will do.
+/// Accepted kinds of elements.
 #[derive(Clone, Copy)]
 pub(crate) struct Kinds {
     suits: fn(&Target) -> bool,
@@ -33,7 +33,7 @@ pub(crate) struct Kinds {
 }
 
 impl Kinds {
-    /// What turns about an axis.
+    /// Elements that rotate about an axis.
     pub(crate) const TURNING: Self = Self {
         suits: |target| matches!(target, Target::Joint(_) | Target::TorsionSpring(_)),
         expected: "the name of a joint or of a torsion_spring",
@@ -46,7 +46,7 @@ impl Kinds {
     /// A TSDA.
     pub(crate) const TSDA: Self =
         Self { suits: |target| matches!(target, Target::Tsda(_)), expected: "the name of a tsda" };
-    /// What pulls at points.
+    /// Elements that pull at points.
     pub(crate) const PULLING: Self = Self {
         suits: |target| !matches!(target, Target::TorsionSpring(_) | Target::Interaction(_)),
         expected: "the name of a joint, a tsda or a point_on_line",
@@ -95,21 +95,21 @@ impl Kind for ElementName<'_> {
 
 impl ElementName<'_> {
     fn help(&self, name: &str) -> String {
-        /// More names than this say less.
+        /// Most names listed in a message.
         const SHOWN: usize = 12;
         let suits = |(_, target): &(&str, &Target)| (self.kinds.suits)(target);
         let known: Vec<_> = self.elements.iter().filter(suits).map(|(name, _)| name).collect();
         let expected = self.expected();
         match nearest(name, known.iter().copied()) {
-            Some(meant) => format!("did you mean \"{meant}\"? it must be {expected}"),
+            Some(meant) => format!("did you mean \"{meant}\"? expected {expected}"),
             None if known.is_empty() => {
-                format!("it must be {expected}; the scene has none with a name")
+                format!("expected {expected}; the scene has none with a name")
             }
             None => {
                 let rest = known.len().saturating_sub(SHOWN);
                 let shown = known[..known.len() - rest].join("\", \"");
                 let more = if rest > 0 { format!(" and {rest} more") } else { String::new() };
-                format!("it must be {expected}: \"{shown}\"{more}")
+                format!("expected {expected}: \"{shown}\"{more}")
             }
         }
     }

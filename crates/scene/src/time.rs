@@ -1,8 +1,7 @@
 //! Times on the command line and in reports: `20us`, `0.02ms`, `5e-2s`.
 //!
 //! `text => seconds` and back. A text is read as in a scene ([`quantity`](crate::quantity)): `20us` is the f64
-//! nearest to 20e-6, the same as `0.02ms` and `2e-5`, a number of seconds; 20.0·1e-6 would be another
-//! one.
+//! nearest to 20e-6, the same as `0.02ms` and `2e-5`, a number of seconds; 20.0·1e-6 would differ.
 
 use std::fmt;
 use std::str::FromStr;
@@ -11,8 +10,7 @@ use crate::quantity::{dimension_of, evaluate};
 
 /// A positive, finite time \[s\].
 ///
-/// Displayed with the unit that keeps the number short; what is displayed reads back to the same
-/// bits.
+/// Displayed with the unit that gives the shortest number; the text reads back to the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Time(f64);
 
@@ -24,13 +22,13 @@ pub enum TimeError {
         "a time is a number of seconds, or a number with a unit (s, ms, us, ns, min), for example 20us"
     )]
     Malformed,
-    /// Zero, negative, or beyond what an f64 can hold.
+    /// Zero, negative, or beyond the range of an f64.
     #[error("a time must be positive and finite")]
     Range,
 }
 
 impl Time {
-    /// A time of so many seconds.
+    /// A time in seconds.
     ///
     /// # Errors
     /// [`TimeError::Range`] where it is not positive and finite.
@@ -53,10 +51,10 @@ impl FromStr for Time {
     }
 }
 
-/// \[s\] what a text says: a number of seconds, or a value in a unit of time; of any sign.
+/// \[s\] the value of a text: a number of seconds, or a value in a unit of time; of any sign.
 ///
 /// # Errors
-/// [`TimeError::Malformed`]; [`TimeError::Range`] where it is too large to hold.
+/// [`TimeError::Malformed`]; [`TimeError::Range`] on overflow.
 pub fn seconds(text: &str) -> Result<f64, TimeError> {
     match evaluate(text) {
         Ok(time) if time.dimension.is_none() || time.dimension == dimension_of("s") => {
@@ -86,7 +84,7 @@ impl fmt::Display for Time {
     }
 }
 
-/// A time \[s\] with the unit that keeps the number short: `20us`, `0.5s`, `0s`.
+/// A time \[s\] with the unit that gives the shortest number: `20us`, `0.5s`, `0s`.
 ///
 /// Only the decimal exponent of the shortest text is shifted, so a positive time reads back to
 /// the same bits.
@@ -112,13 +110,13 @@ pub fn display(seconds: f64) -> String {
     format!("{sign}{}{unit}", place_point(&digits.replace('.', ""), exponent - shift))
 }
 
-/// A time rounded to so many significant digits.
+/// A time rounded to the given number of significant digits.
 #[must_use]
 pub fn rounded(seconds: f64, digits: usize) -> f64 {
     format!("{seconds:.*e}", digits.max(1) - 1).parse().unwrap_or(seconds)
 }
 
-/// A longest time with four significant digits, never longer.
+/// An upper limit of a time, rounded down to four significant digits.
 #[must_use]
 pub fn at_most(seconds: f64) -> f64 {
     let near = rounded(seconds, 4);

@@ -43,7 +43,7 @@ mod tests {
 
     use crate::example;
 
-    /// The axis is stored in the first body and the twist is 0 at the initial pose.
+    /// The axis is stored in the first body and the torsion angle is 0 at the initial pose.
     #[test]
     fn the_axis_is_the_first_bodys_and_the_twist_starts_at_zero() {
         let scene = example::with(

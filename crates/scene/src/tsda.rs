@@ -1,4 +1,4 @@
-//! `[[tsda]]`: one raw TSDA between two points; with the free length 0 a point bushing.
+//! `[[tsda]]`: one raw TSDA between two points; a point bushing if the free length is 0.
 
 use dbd_kernel::Vec3;
 
@@ -13,7 +13,7 @@ use crate::text::{Kind, Number, Table, Value};
 
 pub(crate) const KEYS: &[&str] = &["name", "between", "points", "free_length", "limits"];
 
-/// Points closer than this share of the free length give the line no direction.
+/// Points closer than this fraction of the free length define no direction.
 const COINCIDENT: f64 = 1e-9;
 
 /// Reads all raw TSDAs in scene order and names them for messages.
@@ -34,9 +34,9 @@ pub(crate) fn read_all(
         let distance = libm::sqrt(d.dot(d));
         let free_length = table.required("free_length", FreeLength { distance })?;
         if free_length > 0.0 && distance <= COINCIDENT * free_length {
-            let help = "two points apart, or `free_length = 0` for a spring that is isotropic and \
-                        needs no direction";
-            let problem = "coincide, though the TSDA has a free length";
+            let help = "give two different points, or use `free_length = 0` for a spring that is \
+                isotropic";
+            let problem = "coincide, but `free_length` is not 0";
             return Err(table.refuse_value("points", problem, help));
         }
         let points = Points { centres: &[a], tips: &[b], shared: false };
@@ -51,9 +51,9 @@ pub(crate) fn read_all(
     Ok(labels)
 }
 
-/// A length, or `"initial"`: the one at the initial pose.
+/// A length, or `"initial"` for the length at the initial pose.
 struct FreeLength {
-    /// \[m\] that one.
+    /// \[m\] length at the initial pose.
     distance: f64,
 }
 
@@ -64,7 +64,7 @@ impl Kind for FreeLength {
 
     fn expected(&self) -> String {
         format!(
-            "{}, or \"{INITIAL}\": as long as it is at t = 0",
+            "{}, or \"{INITIAL}\" for the length at t = 0",
             Number::not_negative("m").expected()
         )
     }

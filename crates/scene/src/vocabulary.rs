@@ -1,27 +1,27 @@
-//! What the reader takes: the tables of a scene file and their keys.
+//! The tables of a scene file and their keys.
 //!
-//! `() => tables with their keys`, from the very lists by which unknown keys are refused; for what helps people to
-//! write scenes.
+//! `() => tables with their keys`, from the lists by which unknown keys are refused; for editor schemas and similar
+//! tools.
 
 use crate::{
     body, defaults, drive, geometry, inertia, input, interaction, joints, links, load, read,
 };
 use crate::{orientation, point_on_line, points, readout, spring, start, torsion_spring, tsda};
 
-/// A table of scene files and the keys that it may have.
+/// A table of scene files and its allowed keys.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TableKeys {
-    /// What it is called: `scene`, `body`, `joint`; of tables within others `link`, `shape`, `spider`, `orientation`,
+    /// Its name: `scene`, `body`, `joint`; for nested tables `link`, `shape`, `spider`, `orientation`,
     /// `point` (in `[points]`), `halves` (`{ first, second }`), `rate` (of a joint in `assemble.rates`), `stiffness`,
     /// `sine`, `limits`, `friction` and `rotor` of joints, `gear` and `winding` of drives, `term` of couplings.
     pub table: &'static str,
-    /// The type or shape that has these keys, where there are several: `revolute`.
+    /// The type or shape with these keys, if there are several: `revolute`.
     pub kind: Option<&'static str>,
-    /// The keys, in the order in which messages have them.
+    /// The keys, in the order of messages.
     pub keys: Vec<&'static str>,
 }
 
-/// All tables but `[parameters]` and `[points]`, whose keys are names, and `[defaults]`, whose are kinds.
+/// All tables except `[parameters]` and `[points]`, whose keys are names, and `[defaults]`, whose keys are kinds.
 #[must_use]
 pub fn vocabulary() -> Vec<TableKeys> {
     let one =
@@ -51,7 +51,7 @@ pub fn vocabulary() -> Vec<TableKeys> {
     for shape in inertia::NAMES {
         let sizes = inertia::sizes(shape);
         add("link", shape, [links::KEYS, &["shape", "mass", "density"], sizes].concat());
-        // A ball has no axis.
+        // A sphere has no axis.
         let along = if shape == "sphere" { &body::SHAPE[..1] } else { body::SHAPE };
         add("shape", shape, [along, &["mass", "density"], sizes].concat());
     }
@@ -63,7 +63,7 @@ pub fn vocabulary() -> Vec<TableKeys> {
     all
 }
 
-/// The tables of `[defaults]`, each with the keys that it may have.
+/// The tables of `[defaults]` with their allowed keys.
 #[must_use]
 pub fn defaults() -> Vec<(&'static str, Vec<&'static str>)> {
     let own = |keys: Vec<&'static [&'static str]>| {
@@ -78,7 +78,7 @@ pub fn defaults() -> Vec<(&'static str, Vec<&'static str>)> {
     defaults::kinds().into_iter().map(|(kind, keys)| (kind, own(keys))).collect()
 }
 
-/// The colours of geometry that have a name.
+/// The named colours of geometry.
 #[must_use]
 pub fn colours() -> Vec<&'static str> {
     geometry::colour_words().into()

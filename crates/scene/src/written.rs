@@ -1,21 +1,21 @@
-//! Numbers as they are written, where the model no longer shows them.
+//! Written numbers that the model no longer contains.
 //!
-//! `values that are read => all numbers by where they stand; large plain angles with their lines`.
+//! `read values => all numbers by position; large plain angles with their lines`.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// \[rad\] Nobody turns anything by more than once round; a turn written with three digits is one.
+/// \[rad\] An angle above one revolution is suspect; the margin allows for a revolution written with three digits.
 const WHOLE_TURN: f64 = 1.001 * TAU;
 
-/// An angle without a unit that is larger than a whole turn.
+/// An angle without a unit that exceeds one revolution.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct WrittenAngle {
-    /// What messages call that to which it belongs: ``body `crank` ``.
+    /// Its owner in messages: ``body `crank` ``.
     pub(crate) owner: String,
-    /// The key it is a value of, with the table in which it stands: `` `angle` of its orientation``.
+    /// Its key, with its table: `` `angle` of its orientation``.
     pub(crate) key: String,
     /// The line, from 1.
     pub(crate) line: usize,
@@ -28,7 +28,7 @@ pub(crate) struct WrittenAngle {
 pub(crate) struct Angles(RefCell<BTreeMap<usize, WrittenAngle>>);
 
 impl Angles {
-    /// Notes an angle where it is large: its key, what that belongs to, the text and the byte at which it begins.
+    /// Records an angle if it is large: its key, owner, text and start byte.
     pub(crate) fn note(&self, angle: f64, [key, owner]: [&str; 2], text: &str, start: usize) {
         if angle.abs() <= WHOLE_TURN {
             return;
@@ -46,18 +46,18 @@ impl Angles {
         self.0.borrow_mut().insert(start, WrittenAngle { owner, key, line, angle });
     }
 
-    /// All of them in the order of the file.
+    /// All angles in the order of the file.
     pub(crate) fn all(self) -> Vec<WrittenAngle> {
         self.0.into_inner().into_values().collect()
     }
 }
 
-/// The numbers that were read, by where they stand.
+/// The numbers that were read, by position.
 #[derive(Debug, Default)]
 pub(crate) struct Log(RefCell<BTreeMap<(usize, usize), (f64, String)>>);
 
 impl Log {
-    /// Notes a number; of two readings of one the first counts.
+    /// Records a number; the first of two readings counts.
     pub(crate) fn note(&self, span: Range<usize>, value: f64, unit: &str) {
         let mut noted = self.0.borrow_mut();
         noted.entry((span.start, span.end)).or_insert_with(|| (value, unit.to_owned()));

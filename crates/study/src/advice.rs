@@ -1,7 +1,7 @@
-//! What the points say in words: which way of stepping to take for an accuracy.
+//! Advice in sentences: which method to choose for an accuracy.
 //!
-//! `points => advice`. A choice is a measured point; what the paper's scheme would
-//! need for the same is read between its own points and said to be so.
+//! `points => advice`. A choice is a measured point; the cost of the paper's scheme at the same accuracy is
+//! interpolated between its own points and marked as such.
 
 use std::fmt;
 
@@ -16,8 +16,7 @@ use crate::words::{Cost, named, percent, shown, times};
 /// Decimal exponents of the accuracies spoken of, in metres.
 const DECADES: std::ops::RangeInclusive<i32> = -9..=-3;
 
-/// The row of the cheapest point of the kernel that is at most so far off \[m\]; of references with
-/// `kernel` false.
+/// The row of the cheapest point of the kernel with at most the given error \[m\]; of references with `kernel` false.
 #[must_use]
 pub fn choice(points: &[Point], machine: Machine, target: f64, kernel: bool) -> Option<usize> {
     let of = |point: &Point| point.stepper.kernel == kernel && point.stepper.is_exact();
@@ -30,7 +29,7 @@ pub fn choice(points: &[Point], machine: Machine, target: f64, kernel: bool) -> 
         .map(|(.., row)| row)
 }
 
-/// What to choose for an accuracy.
+/// Choice for an accuracy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Advice {
     /// Decimal exponent of the accuracy \[m\].
@@ -41,15 +40,15 @@ pub struct Advice {
     pub sentence: String,
 }
 
-/// One for each power of ten from 1 mm down to 1 nm that some point of the kernel reaches, but not
-/// below what the truth is known to \[m\].
+/// One for each power of ten from 1 mm down to 1 nm that some point of the kernel reaches, down to the uncertainty
+/// \[m\] of the reference solution.
 #[must_use]
 pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advice> {
     let among = match machine {
         Machine::Host => String::new(),
         Machine::Target => match counted(points, machine) {
-            1 => ", the only method counted,".into(),
-            many => format!(", of the {many} methods counted,"),
+            1 => " (the only method with counted instructions)".into(),
+            many => format!(" (of {many} methods with counted instructions)"),
         },
     };
     let paper = points.iter().filter(|point| is_paper(&point.stepper, machine));
@@ -91,39 +90,39 @@ pub fn advice(points: &[Point], machine: Machine, uncertainty: f64) -> Vec<Advic
             sentence += &limits(points, row);
             if let Some(least) = chosen.step_in_space.filter(|least| *least < chosen.step) {
                 sentence +=
-                    &format!("; stable in its plane alone, in space up to {}", approximate(least));
+                    &format!("; stable only in the plane, in space up to {}", approximate(least));
             }
             let widest = chosen.host_spread.max(paper_spread);
             if machine == Machine::Host && widest > CALM {
                 let spread = percent(widest);
-                sentence += &format!("; timed on a busy machine, times spread by {spread}");
+                sentence += &format!("; timed on a busy machine: times vary by {spread}");
             }
             Some(Advice { decade, row, sentence })
         })
         .collect()
 }
 
-/// What keeps the error of a choice from falling with a smaller step, as far as it was measured.
+/// Measured limits of a choice's convergence with smaller steps.
 fn limits(points: &[Point], row: usize) -> String {
     let chosen = &points[row];
     let mut text = String::new();
     if let Fall { order: Some(order), stated: Some(stated), cause: Some(cause), .. } = chosen.fall {
         let why = match cause {
-            Cause::SweptDampers => "dampers are swept around its steps",
+            Cause::SweptDampers => "dampers act in passes before and after each step",
             Cause::ExplicitDampers => "its dampers are explicit",
             Cause::LoadsAndTables => "loads or tables change within its steps",
         };
         let order = significant(rounded(order, 2), 2);
-        text += &format!("; its error falls with order {order} here, not {stated}: {why}");
+        text += &format!("; its convergence order here is {order}, not {stated}: {why}");
     }
     if let Some(finest) = chosen.fall.finest {
         let usable = |point: &&Point| point.stepper == chosen.stepper && point.advisable;
         let largest = points.iter().filter(usable).map(|point| point.step).fold(0.0, f64::max);
         let precision = &chosen.stepper.precision;
         text += &match finest >= largest {
-            true => format!("; in {precision} its largest usable step is its most accurate"),
+            true => format!("; in {precision} its largest usable step is the most accurate"),
             false => {
-                format!("; in {precision} it is no more accurate below a step of {}", shown(finest))
+                format!("; in {precision} steps below {} are not more accurate", shown(finest))
             }
         };
     }
@@ -142,7 +141,7 @@ pub fn remark(points: &[Point], machine: Machine) -> Option<&'static str> {
     } else if drawn().all(|(_, error)| error == 0.0) {
         Some("every error is zero")
     } else if points.iter().all(|point| point.kept(machine).is_none()) {
-        Some("no step that was tried may be advised")
+        Some("none of the tested steps can be advised")
     } else {
         None
     }
@@ -153,7 +152,7 @@ fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
-/// What the paper's scheme needs against a cost.
+/// Cost of the paper's scheme relative to another.
 struct Against(Need, f64);
 
 impl fmt::Display for Against {
@@ -173,7 +172,7 @@ impl fmt::Display for Against {
                 let ratio = ratio(cost);
                 write!(f, "needs more than {ratio} times as much, by extrapolation")
             }
-            Need::Never => f.write_str("does not reach it"),
+            Need::Never => f.write_str("does not reach this accuracy"),
             Need::Unstable => f.write_str("has no stable step here"),
             Need::Uncounted => f.write_str("was not counted here"),
         }
@@ -210,12 +209,15 @@ pub(crate) mod tests {
         assert_eq!(
             said.last().unwrap(),
             "for 1e-5 m choose, of the 3 methods counted, pefrl, f64, step 100us (20 million \
-             instructions per simulated second); the paper's scheme in f32 does not reach it"
+             instructions per simulated second); the paper's scheme in f32 does not reach this accuracy"
         );
         assert!(said.iter().all(|sentence| !sentence.contains("stable")));
         let alone = [points[4].clone()];
         let said = sentences(&alone, Machine::Target, 1e-5).pop().unwrap();
-        assert!(said.contains(" choose, the only method counted, pefrl, f64, "), "{said}");
+        assert!(
+            said.contains(" choose (the only method with counted instructions) pefrl, f64, "),
+            "{said}"
+        );
         let said = sentences(&ladder(), Machine::Target, 1e-5).pop().unwrap();
         assert!(
             said.ends_with("; the paper's scheme in f64 needs about 5 times as much"),
@@ -259,9 +261,9 @@ pub(crate) mod tests {
                  second); the paper's scheme needs more than 500 times as much, by extrapolation",
             ]
         );
-        // What the truth is not known to is not spoken of.
+        // Accuracies below the uncertainty of the reference solution have no advice.
         assert_eq!(sentences(&points, Machine::Host, 5e-7).len(), 4);
-        // A reference is not chosen, but said to be cheaper where it is.
+        // A reference is not chosen, but mentioned if it is cheaper.
         let mut reference = point("naive", 1e-3, 0.01, Some(1e-6));
         reference.stepper.kernel = false;
         points.push(reference);
@@ -283,7 +285,7 @@ pub(crate) mod tests {
         let text = said(&points);
         assert!(
             text.ends_with(
-                "; its error falls with order 1 here, not 4: loads or tables change within its steps"
+                "; its convergence order here is 1, not 4: loads or tables change within its steps"
             ),
             "{text}"
         );
@@ -292,10 +294,10 @@ pub(crate) mod tests {
             point.fall = Fall { order, stated, cause: None, finest: Some(1e-4) };
         }
         let text = said(&points);
-        assert!(text.ends_with("; in f32 it is no more accurate below a step of 100us"), "{text}");
+        assert!(text.ends_with("; in f32 steps below 100us are not more accurate"), "{text}");
         points.iter_mut().for_each(|point| point.fall.finest = Some(1e-3));
         let text = sentences(&points, Machine::Host, 1e-4).pop().unwrap();
-        assert!(text.ends_with("; in f32 its largest usable step is its most accurate"), "{text}");
+        assert!(text.ends_with("; in f32 its largest usable step is the most accurate"), "{text}");
     }
 
     #[test]
@@ -303,7 +305,7 @@ pub(crate) mod tests {
         let mut points = ladder();
         points.iter_mut().for_each(|point| point.step_in_space = Some(5e-4));
         let said = sentences(&points, Machine::Host, 0.0);
-        let words = "; stable in its plane alone, in space up to 500us";
+        let words = "; stable only in the plane, in space up to 500us";
         assert!(said[1].ends_with(words) && said[1].contains("step 1ms"), "{}", said[1]);
         assert!(!said[2].contains("plane") && said[2].contains("step 100us"), "{}", said[2]);
     }
@@ -317,17 +319,13 @@ pub(crate) mod tests {
             .for_each(|p| p.host_spread = 0.35);
         let said = sentences(&points, Machine::Host, 1e-5);
         assert!(!said[0].contains("busy"), "{}", said[0]);
-        assert!(
-            said[1].ends_with("; timed on a busy machine, times spread by 35 %"),
-            "{}",
-            said[1]
-        );
+        assert!(said[1].ends_with("; timed on a busy machine: times vary by 35 %"), "{}", said[1]);
         let said = sentences(&points, Machine::Target, 1e-5);
         assert!(said.iter().all(|said| !said.contains("busy")));
         // A ratio is no better known than the paper's time in it.
         let mut points = ladder();
         points[0].host_spread = 8.0;
-        assert!(sentences(&points, Machine::Host, 1e-5)[1].ends_with("times spread by 800 %"));
+        assert!(sentences(&points, Machine::Host, 1e-5)[1].ends_with("times vary by 800 %"));
     }
 
     #[test]

@@ -1,10 +1,9 @@
-//! What is known already: one line per result, a check sum and JSON, appended as it comes.
+//! Cached results: one line per result, a checksum and JSON, appended as they arrive.
 //!
-//! `folder, key => file, results`. Scene, build and window have a file of their own. A survey that is
-//! interrupted leaves the lines it has; the next one goes on behind the last whole one, and one that
-//! is complete is read and nothing more. A line whose sum is not that of its text and of the key,
-//! and all behind it, is what a damaged disk or another scene left: it counts as not there. One
-//! survey at a time has a file.
+//! `folder, key => file, results`. There is one file per scene, build and window. An interrupted study leaves its
+//! lines; the next one continues after the last complete line, and a complete file is only read. A line whose checksum
+//! does not match its text and the key, and all lines after it, come from a damaged disk or another scene and are
+//! ignored. A file is locked by one study at a time.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -29,9 +28,9 @@ pub struct Head {
     pub grid: Grid,
     /// By how much a perturbation has grown at its end.
     pub growth: f64,
-    /// \[m\] how far the truth's second opinion is away at most.
+    /// \[m\] largest distance between the reference solution and its second opinion.
     pub uncertainty: f64,
-    /// Whether bodies turn about more than one axis.
+    /// Whether bodies rotate about more than one axis.
     pub in_space: bool,
 }
 
@@ -48,7 +47,7 @@ impl Head {
 pub enum Entry {
     /// The first line.
     Head(Head),
-    /// How far off a way is.
+    /// Error of a method.
     Accuracy {
         /// Its label.
         way: String,
@@ -56,7 +55,7 @@ pub enum Entry {
         steps: u64,
         /// Whether it came to the end.
         stable: bool,
-        /// Whether it lost its way.
+        /// Whether it is lost.
         lost: bool,
         /// \[m\].
         error: Option<f64>,
@@ -72,9 +71,9 @@ pub enum Entry {
         /// \[s\] the largest stable step.
         step: f64,
     },
-    /// The scene beside its variants.
+    /// The scene and its variants.
     Variants(Vec<Compared>),
-    /// What a step of a way takes.
+    /// Cost of a step of a method.
     Cost {
         /// Its label.
         way: String,
@@ -94,17 +93,17 @@ pub struct Cache {
     pub limits: BTreeMap<String, f64>,
     /// Costs by label.
     pub costs: BTreeMap<String, Cost>,
-    /// The scene beside its variants, once known.
+    /// The scene and its variants, once known.
     pub variants: Option<Vec<Compared>>,
     /// Its file and key.
     file: Option<(File, u64)>,
 }
 
 impl Cache {
-    /// The results of a key that a folder holds.
+    /// The results of a key in a folder.
     ///
     /// # Errors
-    /// [`io::ErrorKind::WouldBlock`] where another survey has the file; where it cannot be written.
+    /// [`io::ErrorKind::WouldBlock`] if another study has the file; other errors if it cannot be written.
     pub fn open(folder: &Path, key: u64) -> io::Result<Self> {
         let mut options = OpenOptions::new();
         let path = path(folder, key);
@@ -119,7 +118,7 @@ impl Cache {
         let mut text = Vec::new();
         file.read_to_end(&mut text)?;
         let (mut cache, good) = Self::read(key, &text);
-        // What follows the last whole line is the end of a survey that was killed, or damage.
+        // Text after the last complete line comes from a killed study, or damage.
         if good < text.len() as u64 {
             file.set_len(good)?;
         }
@@ -128,7 +127,7 @@ impl Cache {
         Ok(cache)
     }
 
-    /// The results of a key in a file's bytes, and how many bytes they take.
+    /// The results of a key in a file's bytes, and their length in bytes.
     fn read(key: u64, text: &[u8]) -> (Self, u64) {
         let mut cache = Self::default();
         let mut good = 0;
@@ -179,7 +178,7 @@ impl Cache {
     }
 }
 
-/// The result on a line, where it is whole and of this key.
+/// The result on a line, if it is complete and of this key.
 fn read(key: u64, line: &[u8]) -> Option<Entry> {
     let text = std::str::from_utf8(line.strip_suffix(b"\n")?).ok()?;
     let (sum, json) = text.split_once(' ')?;
@@ -201,7 +200,7 @@ fn check_sum(key: u64, text: &str) -> String {
 
 fn append(file: &mut File, key: u64, entry: &Entry) -> io::Result<()> {
     let json = serde_json::to_string(entry).map_err(io::Error::other)?;
-    // JSON has no infinity: what would not be read again is not kept.
+    // JSON has no infinity: values that cannot be read back are not stored.
     if serde_json::from_str::<Entry>(&json).is_err() {
         return Ok(());
     }
@@ -224,7 +223,7 @@ pub fn key(scene: &Scene, longest: f64, unit: f64) -> u64 {
     hash.finish()
 }
 
-/// What tells this build from another: size and time of the program.
+/// Identity of this build: size and time of the program.
 #[must_use]
 pub fn build() -> String {
     let data = std::env::current_exe().and_then(std::fs::metadata);
@@ -260,7 +259,7 @@ mod tests {
         cache.add(accuracy(3)).unwrap();
         let cost = Cost { least: 1e-7 / 3.0, median: 1e-7, spread: 0.1 };
         cache.add(Entry::Cost { way: "x".into(), cost }).unwrap();
-        // What JSON cannot say is known to this survey and not kept.
+        // Values without a JSON representation are kept in memory only.
         let endless = Cost { least: f64::INFINITY, ..cost };
         cache.add(Entry::Cost { way: "y".into(), cost: endless }).unwrap();
         assert!(cache.costs["y"].least.is_infinite());
@@ -283,7 +282,7 @@ mod tests {
         assert_eq!(Cache::open(folder, 7).unwrap().accuracies.len(), 2);
     }
 
-    /// Whatever happens to a byte, or wherever the file ends: what is read is what was written.
+    /// For any damaged byte or truncation, only written results are read.
     #[test]
     fn a_damaged_file_gives_no_wrong_result() {
         let folder = tempfile::tempdir().unwrap();

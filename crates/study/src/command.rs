@@ -1,4 +1,4 @@
-//! The command line that runs what was measured.
+//! The command line of a measured run.
 //!
 //! `(scene as called, point) => host-sim run …`.
 
@@ -39,14 +39,14 @@ impl Command {
 pub fn with_changes(scene: &Scene, called: &str) -> String {
     let last = scene.changes.len().saturating_sub(1);
     let set = scene.changes.iter().enumerate().map(|(row, change)| match change.as_str() {
-        // It goes before all others, wherever it stands.
+        // It is placed before all others.
         "planar=true" if row == last => " --planar".into(),
         change => format!(" --set {}", quoted(change)),
     });
     [quoted(called)].into_iter().chain(set).collect()
 }
 
-/// A word as a shell takes it.
+/// A word quoted for a shell.
 #[must_use]
 pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./\\:".contains(c);

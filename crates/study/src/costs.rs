@@ -1,9 +1,8 @@
-//! What a step costs on Cortex-M4F, as counted: the table `docs/costs.csv`.
+//! Counted cost of a step on Cortex-M4F: the table `docs/costs.csv`.
 //!
 //! `(scene, scheme, newton, damping, precision, orientation) => instructions per step`. The table
-//! is part of the binary; `cargo xtask cost` measures it, `docs/target.md` tells how. A count is
-//! that of the shipped scene: a scene with other bodies or elements costs otherwise under the same
-//! name.
+//! is part of the binary; `cargo xtask cost` measures it, see `docs/target.md`. A count applies to the shipped scene: a
+//! scene of the same name with other bodies or elements has another cost.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +11,7 @@ use serde::Deserialize;
 /// The table as shipped.
 const TABLE: &str = include_str!("../costs.csv");
 
-/// The only way of storing orientations that is counted.
+/// The only orientation representation that is counted.
 const ORIENTATION: &str = "quaternion";
 
 /// Instructions per step on Cortex-M4F by scene, scheme and precision.
@@ -56,10 +55,9 @@ impl Costs {
         Ok(Self { rows: rows.collect::<Result<_, csv::Error>>()? })
     }
 
-    /// Instructions per step, the mean of the counted steps; `None` for what was not counted.
+    /// Instructions per step, the mean of the counted steps; `None` if not counted.
     ///
-    /// `newton` is the number of Newton iterations, `damping` how dampers act where the scheme's
-    /// own way is another.
+    /// `newton` is the number of Newton iterations, `damping` the damping mode if it is not the scheme's default.
     #[must_use]
     pub fn instructions_per_step(
         &self,
@@ -83,8 +81,8 @@ impl Costs {
         self.rows.get(&(scene.to_owned(), scheme, precision.to_owned())).copied()
     }
 
-    /// How many times the instructions of leapfrog in f32 a step takes, the middle of the scenes of which both were
-    /// counted; `None` where there is none.
+    /// Instructions of a step relative to leapfrog in f32, median of the scenes of which both were counted; `None` if
+    /// there is none.
     #[must_use]
     pub fn over_leapfrog(
         &self,
@@ -105,7 +103,7 @@ impl Costs {
         };
         let mut ratios: Vec<f64> = scenes.iter().filter_map(ratio).collect();
         ratios.sort_by(f64::total_cmp);
-        // A matrix takes dampers at no cost, so damped scenes lower the middle of the undamped ones.
+        // Dampers cost nothing with a matrix, so damped scenes lower the median of the undamped ones.
         let row = match scheme.starts_with("generalized-alpha") {
             true => ratios.len() * 2 / 3,
             false => ratios.len() / 2,
@@ -202,7 +200,7 @@ mod tests {
         assert!(explicit("leapfrog").is_some() && explicit("semi-implicit-euler").is_some());
     }
 
-    /// A step is its evaluations and little else, where no damper is swept.
+    /// Without damper passes a step costs little more than its evaluations.
     #[test]
     fn counts_grow_with_the_evaluations() {
         let costs = Costs::shipped();

@@ -1,8 +1,8 @@
-//! What a step costs on Cortex-M4F, as estimated: for scenes whose steps were not counted.
+//! Estimated cost of a step on Cortex-M4F, for scenes whose steps were not counted.
 //!
-//! `(scene, method, counts) => instructions per step`. A step of leapfrog in f32 takes so many instructions per body, per
-//! axis about which a body turns, and per element; another scheme or precision takes the middle of the ratios that
-//! counted scenes have. Inputs hold their values. Held against every counted row by a test.
+//! `(scene, method, counts) => instructions per step`. A step of leapfrog in f32 has fixed numbers of instructions per
+//! body, per rotation axis of a body, and per element; another scheme or precision scales it by the median ratio of
+//! counted scenes. Inputs hold their values. A test compares it with every counted row.
 
 use dbd_kernel::model::{Group, Law};
 use dbd_plant::plan::step_of;
@@ -11,14 +11,14 @@ use dbd_scene::Scene;
 
 use crate::costs::Costs;
 
-/// Steps after which bodies turn about the axes about which they turn: as many as are counted.
+/// Steps after which the rotation axes are determined: as many as are counted.
 const STEPS: u64 = 68;
 
-/// Instructions per body, per axis that it turns about, per element and per damped element: in space and in a plane.
+/// Instructions per body, per rotation axis, per element and per damped element: in space and in a plane.
 /// Fitted to the rows of leapfrog in f32 in docs/costs.csv by least squares of the relative errors. Dampers of torsion
-/// springs and of bushings, dampers in a plane and levers: gripper, cart-pendulum and a gate of five revolute joints, counted
-/// by `cargo cost`. Not counted, and taken from what is most alike: spatial point bushings; in a plane torsion springs,
-/// points on lines, revolute and universal bushings.
+/// springs and of bushings, dampers in a plane and damping modes: gripper, cart-pendulum and a gate of five revolute
+/// joints, counted by `cargo cost`. Not counted, and taken from the most similar element: spatial point bushings; in a
+/// plane torsion springs, points on lines, revolute and universal bushings.
 struct Share {
     body: f64,
     axis: f64,
@@ -28,13 +28,13 @@ struct Share {
     revolute: f64,
     universal: f64,
     torsion: f64,
-    /// Swept: of a TSDA, of a direction of a bushing, of a point on a line.
+    /// Sweeps: of a TSDA, of a direction of a bushing, of a point on a line.
     dampers: [f64; 3],
     /// By sweeps, then joint-wise: of a torsion spring's damper.
     torsion_damper: [f64; 2],
-    /// Joint-wise: of a lever of a joint to the ground, of one between two bodies.
+    /// Joint-wise: of a damping mode of a joint to the ground, of one between two bodies.
     levers: [f64; 2],
-    /// Joint-wise, of a group that is swept all the same, beside its dampers.
+    /// Joint-wise, of a group that still uses sweeps, in addition to its dampers.
     swept: f64,
     /// Of each law, its first body the ground: stops within their range, friction that slides. Counted by `cargo cost`
     /// in projects of `host-sim new firmware` with one joint, less the same without the law.
@@ -96,9 +96,8 @@ const IN_PLANE: Share = Share {
     ],
 };
 
-/// Instructions of a step of a scene by a method; `None` for a way of damping, a scheme or a precision of which
-/// nothing was counted, of scenes with dampers by other schemes than leapfrog and semi-implicit Euler, and with laws
-/// that are not the project's.
+/// Instructions of a step of a scene by a method; `None` for a damping mode, scheme or precision without counts, for
+/// scenes with dampers and other schemes than leapfrog and semi-implicit Euler, and with custom laws.
 #[must_use]
 pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f64> {
     let model = scene.stepped();
@@ -147,7 +146,7 @@ impl Share {
     /// Of a group's dampers.
     fn damped(&self, group: &Group, joint_wise: bool, planar: bool) -> f64 {
         let elements = group.elements();
-        // Levers that it has joint-wise, and directions in which its elements damp.
+        // Joint-wise damping modes, and directions in which its elements damp.
         let of_bushings = group.law.damper_rows(elements, planar);
         let (levers, directions) = match (group.law, planar) {
             (Law::Tsda, false) => ([0, 1, 0, 3, 0, 0, 5].get(elements).copied().unwrap_or(6), 1),
@@ -174,7 +173,7 @@ impl Share {
     }
 }
 
-/// About how many of their axes the bodies turn, all bodies together: a rotation about none is left out.
+/// Number of rotation axes of all bodies together.
 fn turning(scene: &Scene) -> usize {
     let all = 3 * scene.model.bodies.len();
     let method = Method::default().with_precision(PrecisionName::F32);

@@ -1,6 +1,6 @@
-//! What a survey leaves: `trade.csv`, the charts, the page.
+//! Results of a study: `trade.csv`, the charts, the page.
 //!
-//! `survey => files in a folder`. Each appears when it is complete.
+//! `study => files in a folder`. Each appears when it is complete.
 
 use std::io;
 use std::path::Path;
@@ -58,7 +58,7 @@ pub const COLUMNS: [&str; 24] = [
 /// \[1/s\] instructions of a Cortex-M4F at 168 MHz, 1.5 cycles each: an estimate, see docs/target.md.
 const REAL_TIME: f64 = 168e6 / 1.5;
 
-/// What people read on a terminal, piece by piece.
+/// Text for a terminal, in pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Piece {
     /// A sentence, which a narrow terminal breaks; without its line feed.
@@ -72,7 +72,7 @@ pub enum Piece {
 pub struct Report<'r> {
     /// The scene.
     pub scene: &'r Scene,
-    /// What the user calls it.
+    /// Its name for the user.
     pub called: &'r str,
     /// The survey.
     pub trade: &'r Trade,
@@ -85,20 +85,20 @@ pub struct Json<'r> {
     /// \[s\].
     window: f64,
     samples: u32,
-    /// \[s\] that every step divides, where it was asked for.
+    /// \[s\] the requested period that every step divides.
     period: Option<f64>,
     /// Of a perturbation at the window's end.
     growth: f64,
-    /// \[m\] what the truth is known to.
+    /// \[m\] uncertainty of the reference solution.
     uncertainty: f64,
-    /// What to choose on this machine.
+    /// Advice for this machine.
     advice: Vec<Advised>,
     points: &'r [Point],
-    /// The scene and what it can be made into.
+    /// The scene and its variants.
     variants: &'r [Compared],
 }
 
-/// What to choose for an accuracy, and the command line that runs it.
+/// Choice for an accuracy, and its command line.
 #[derive(Serialize)]
 struct Advised {
     sentence: String,
@@ -119,8 +119,7 @@ impl<'r> Report<'r> {
         files.finish()?.publish()
     }
 
-    /// Writes all files and adds them to others. A chart of the target that an earlier survey left
-    /// goes where there is none.
+    /// Writes all files and adds them to others. Removes an old chart of the target if there is no new one.
     ///
     /// # Errors
     /// Where the folder cannot be written to.
@@ -148,8 +147,7 @@ impl<'r> Report<'r> {
         files.write("trade.html", &html(&chart))
     }
 
-    /// What people read on a terminal: for both machines what nothing beats, what to choose and
-    /// how to run it.
+    /// Text for a terminal: for both machines the Pareto front, the choices and their command lines.
     #[must_use]
     pub fn pieces(&self) -> Vec<Piece> {
         let Self { scene, called, trade } = *self;
@@ -165,7 +163,7 @@ impl<'r> Report<'r> {
                 continue;
             }
             let table = table_of(points, machine);
-            pieces.push(Piece::Lines(format!("\n{name}: what nothing beats\n{table}\n")));
+            pieces.push(Piece::Lines(format!("\n{name}: Pareto front\n{table}\n")));
             pieces.extend(remark(points, machine).map(|remark| Piece::Sentence(remark.into())));
             for advice in advice(points, machine, trade.head.uncertainty) {
                 pieces.push(Piece::Sentence(advice.sentence));
@@ -187,7 +185,7 @@ impl<'r> Report<'r> {
         pieces
     }
 
-    /// What programs read.
+    /// Output for programs.
     #[must_use]
     pub fn json(&self) -> Json<'r> {
         let Head { grid, growth, uncertainty, .. } = self.trade.head;
@@ -204,51 +202,54 @@ impl<'r> Report<'r> {
     }
 }
 
-/// What the figures depend on.
+/// Conditions of the measurements.
 fn conditions(trade: &Trade) -> Vec<String> {
     let Head { grid, growth, uncertainty, .. } = trade.head;
     let widest = trade.points.iter().map(|point| point.host_spread).fold(0.0, f64::max);
     let spread = match widest > CALM {
-        true => format!("this machine was busy: times spread by up to {}", percent(widest)),
-        false => format!("they spread by {} at most", percent(widest)),
+        true => format!("this machine was busy: times vary by up to {}", percent(widest)),
+        false => format!("they vary by {} at most", percent(widest)),
     };
-    let build = if cfg!(debug_assertions) { "a debug build: times mean little" } else { "release" };
+    let build =
+        if cfg!(debug_assertions) { "a debug build: times are not meaningful" } else { "release" };
     let mut lines = vec![
         format!(
-            "compared over {}, where a perturbation has grown {} times; the truth is known to {:.0e} m",
+            "compared over {}, during which a perturbation grows by a factor of {}; the reference \
+             solution is accurate to {:.0e} m",
             display(rounded(grid.window(), 12)),
             significant(growth, 2),
             uncertainty,
         ),
         format!(
-            "error: root mean square over bodies and {} samples of the distance from DOP853 at 1e-12; \
-             of a body the centres' distance and, at right angles, the angle between the attitudes \
-             times the root mean square distance of its mass from its centre",
+            "error: root mean square, over bodies and {} samples, of the distance from DOP853 at \
+             1e-12; a body's distance combines that of its centre of mass and, at right angles, the \
+             angle between the attitudes times the root mean square distance of its mass from its \
+             centre of mass",
             grid.samples,
         ),
-        "a step counts as unstable beyond the largest that is stable about the pose at t = 0, dampers \
-         included and out of the plane of the motion, too (check --stability), or where the run fails; \
-         as lost where it is further off than the truth goes at all: its error is shown, it is not \
-         advised"
+        "a step counts as unstable if it exceeds the largest stable step about the pose at t = 0, with \
+         dampers and motion out of the plane included (check --stability), or if the run fails; it \
+         counts as lost if its error exceeds the displacement of the reference solution: its error is \
+         shown, but it is not advised"
             .into(),
         format!(
-            "advised steps keep {} below the largest stable one, for frequencies change along a motion, \
-             turn no body by more than {LARGEST_TURN} rad, and are what the bound of the frequency allows",
+            "advised steps are {} below the largest stable one, because frequencies change along a \
+             motion, rotate no body by more than {LARGEST_TURN} rad, and respect the bound of the \
+             frequency",
             percent(MARGIN),
         ),
         format!(
-            "times: least of {ROUNDS} rounds or more in which the methods take turns on one thread, {}, \
-             {}, {build}; {spread}; one step size of each method is timed and counts for all its steps",
+            "times: minimum of {ROUNDS} or more rounds in which the methods alternate on one thread, {}, \
+             {}, {build}; {spread}; one step size of each method is timed and represents all its steps",
             std::env::consts::ARCH,
             std::env::consts::OS,
         ),
         format!(
-            "Cortex-M4F: instructions per step {}; real time at 168 MHz with 1.5 cycles per instruction is \
-             an estimate",
+            "Cortex-M4F: instructions per step {}; real time assumes 168 MHz and 1.5 cycles per instruction",
             match trade.estimated {
                 true => {
-                    "estimated by bodies and elements, within 10 % for leapfrog in f32 of what was counted; \
-                     cargo cost of a new firmware project counts them"
+                    "estimated from bodies and elements, within 10 % of the counted number for \
+                     leapfrog in f32; `cargo cost` of a new firmware project counts them"
                 }
                 false => "counted in QEMU (docs/costs.csv)",
             },
@@ -266,8 +267,9 @@ fn of_plane(variants: &[Compared]) -> Option<String> {
     let steps = [spatial, own].map(|one| one.stable_step.map_or("any".into(), approximate));
     let [space, plane] = steps;
     Some(format!(
-        "the scene is planar: what is stable, advised and timed is its model in the plane; in space it may tip \
-         out of it, and leapfrog is stable up to {space} there, up to {plane} in the plane"
+        "the scene is planar: stability, advice and times are those of its model in the plane; in \
+         space it may leave the plane; leapfrog is stable up to {space} in space, up to {plane} in the \
+         plane"
     ))
 }
 

@@ -1,6 +1,6 @@
-//! What a survey is asked for, and whether it can be done: its longest window, and what its steps divide.
+//! Options of a study and their checks: its longest window, and the unit of its steps.
 //!
-//! `(scene, options) => longest window, unit of steps | why not`.
+//! `(scene, options) => longest window, unit of steps | error`.
 
 use std::path::PathBuf;
 
@@ -10,17 +10,16 @@ use dbd_scene::Scene;
 
 use crate::grid::unit;
 
-/// \[s\] The longest window where none is given: a mechanism has moved, and a scene of a dozen
-/// bodies takes minutes.
+/// \[s\] Default of the longest window: a mechanism has moved, and a scene of a dozen bodies takes minutes.
 const LONGEST: f64 = 0.5;
 
-/// The shortest window, as a share of the scene's duration.
+/// The shortest window, as a fraction of the scene's duration.
 const SHORTEST: f64 = 1e-6;
 
-/// \[rad\] A window in which the highest frequency turns further has no truth within an hour.
+/// \[rad\] Largest phase of the highest frequency within a window; beyond it the reference solution takes over an hour.
 const FURTHEST: f64 = 1e7;
 
-/// What a survey is asked for.
+/// Options of a study.
 #[derive(Clone, Debug, Default)]
 pub struct TradeOptions {
     /// \[s\] the longest window; 0.5 s or the scene's duration where `None`.
@@ -34,47 +33,47 @@ pub struct TradeOptions {
     pub shipped: Option<Scene>,
 }
 
-/// Why a survey cannot look at a window.
+/// Invalid window of a study.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, miette::Diagnostic)]
 pub enum WindowError {
     /// Longer than the scene.
-    #[error("a window of {} is beyond the scene's duration of {}", display(*window), display(*duration))]
-    #[diagnostic(help("a window up to that, or a longer `duration` in the scene"))]
+    #[error("the window of {} exceeds the scene's duration of {}", display(*window), display(*duration))]
+    #[diagnostic(help("use a window up to the duration, or a longer `duration` in the scene"))]
     Long {
-        /// \[s\] as asked for.
+        /// \[s\] as requested.
         window: f64,
         /// \[s\] the scene's.
         duration: f64,
     },
     /// Shorter than anything that can be compared.
-    #[error("a window of {} is too short to compare steps in", display(*window))]
-    #[diagnostic(help("at least {}, a millionth of the scene's duration", display(SHORTEST * duration)))]
+    #[error("the window of {} is too short to compare steps", display(*window))]
+    #[diagnostic(help("use at least {}, a millionth of the scene's duration", display(SHORTEST * duration)))]
     Short {
-        /// \[s\] as asked for.
+        /// \[s\] as requested.
         window: f64,
         /// \[s\] the scene's duration.
         duration: f64,
     },
-    /// No step divides what it has to.
+    /// No step divides both intervals.
     #[error(
-        "no step divides both a period of {} and what a run of the scene divides, {}",
+        "no step divides both the period {} and the scene's time unit of {}",
         display(*period), display(*accepted)
     )]
     #[diagnostic(help(
-        "a period of which the scene's `every`, or its duration, is a simple multiple or part"
+        "use a period that is a simple multiple or fraction of the scene's `every` or duration"
     ))]
     Period {
-        /// \[s\] as asked for.
+        /// \[s\] as requested.
         period: f64,
         /// \[s\] the longest step that a run accepts.
         accepted: f64,
     },
-    /// No truth in reasonable time.
+    /// No reference solution in reasonable time.
     #[error(
-        "the scene vibrates at up to {frequency:.1e} Hz: a truth over {} would take hours",
+        "the scene vibrates at up to {frequency:.1e} Hz: a reference solution over {} would take hours",
         display(*window)
     )]
-    #[diagnostic(help("--window {} or shorter", display(*possible)))]
+    #[diagnostic(help("use --window {} or shorter", display(*possible)))]
     Stiff {
         /// \[Hz\] the highest frequency at t = 0.
         frequency: f64,
@@ -85,20 +84,20 @@ pub enum WindowError {
     },
 }
 
-/// What a survey looks at: the longest window, and what its steps divide.
+/// Frame of a study: the longest window, and the unit of its steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// \[s\] the longest window.
     pub longest: f64,
-    /// \[s\] the time of which every step is a whole part.
+    /// \[s\] the time that every step divides.
     pub unit: f64,
 }
 
-/// What a survey of a scene looks at.
+/// The frame of a study of a scene.
 ///
 /// # Errors
-/// [`WindowError`] where what was asked for exceeds the scene's duration or is too short to compare
-/// steps in, no truth can be had over it, or no step divides the period.
+/// [`WindowError`] if the requested window exceeds the scene's duration or is too short, its reference solution would
+/// take too long, or no step divides the period.
 pub fn frame(scene: &Scene, options: &TradeOptions) -> Result<Frame, WindowError> {
     let (asked, duration) = (options.window, scene.duration);
     if let Some(window) = asked {

@@ -1,4 +1,4 @@
-//! What nothing beats, as a table.
+//! The Pareto front as a table.
 //!
 //! `(points, machine) => headings, rows, text`.
 
@@ -85,7 +85,7 @@ pub fn table(points: &[Point], machine: Machine) -> String {
         text.push('\n');
     }
     if lines.iter().any(|row| row[4].ends_with('*')) {
-        text += "* by extrapolation along its last two steps\n";
+        text += "* extrapolated from its last two steps\n";
     }
     text
 }

@@ -1,9 +1,8 @@
-//! The times that are compared, and the steps that reach them and that a run accepts.
+//! The compared times, and the valid steps that reach them.
 //!
-//! `(scene, window, period) => interval, samples; steps per interval => step`. A run wants steps of
-//! which duration and sampling interval are whole multiples, a controller some of which its period is
-//! one. So the interval of the comparison is a whole multiple or part of the longest such step, and
-//! every step of a survey is a whole part of both.
+//! `(scene, window, period) => interval, samples; steps per interval => step`. Steps of a run must divide duration and
+//! sampling interval, those with a controller also its period. So the interval of the comparison is an integer multiple
+//! or fraction of the longest such step, and every step of a study divides both.
 
 use dbd_plant::time::{display, rounded};
 use dbd_scene::Scene;
@@ -13,16 +12,16 @@ use serde::{Deserialize, Serialize};
 /// Intervals of a window, at most; at least half as many.
 pub const SAMPLES: u32 = 50;
 
-/// Relative: two times nearer than that are one.
+/// Relative tolerance for equal times.
 const SAME: f64 = 1e-9;
 
-/// A step up to this share shorter is taken where that makes it a round number.
+/// A step may be shortened by up to this fraction to a round number.
 const ROUNDER: f64 = 0.05;
 
 /// \[rad\] ten of the largest stable steps, at the highest frequency.
 const TENFOLD: f64 = 10.0 * std::f64::consts::PI;
 
-/// Digits of a step: so many that rounding moves no sample beyond the rounding of its time.
+/// Digits of a step: enough that rounding moves no sample beyond the rounding of its time.
 const DIGITS: usize = 15;
 
 /// Equal intervals.
@@ -36,12 +35,12 @@ pub struct Grid {
     stride: u64,
 }
 
-/// \[s\] the longest step that a run of the scene accepts and that divides a period \[s\], where one is
-/// asked for. `None` where no step does.
+/// \[s\] the longest step that a run of the scene accepts and that divides a period \[s\], if one is requested. `None`
+/// if no step does.
 ///
-/// Without a period and where the scene gives no sampling interval, the steps divide a power of ten
-/// that holds ten of the steps that vibrations of `highest` \[rad/s\] bear, if the duration is a multiple
-/// of it: round numbers, at the price of a tenth of the largest step.
+/// Without a period and a sampling interval of the scene, the steps divide a power of ten that is at least ten times
+/// the stable step at `highest` \[rad/s\], if the duration is a multiple of it: round numbers, at the cost of a tenth
+/// of the largest step.
 #[must_use]
 pub fn unit(scene: &Scene, period: Option<f64>, highest: f64) -> Option<f64> {
     let accepted =
@@ -73,7 +72,7 @@ impl Grid {
         Self { interval, samples, stride }
     }
 
-    /// \[s\] the time of which every step is a whole part.
+    /// \[s\] the time that every step divides.
     #[must_use]
     pub fn unit(&self) -> f64 {
         self.interval / self.stride as f64
@@ -91,7 +90,7 @@ impl Grid {
         (0..=self.samples).map(|row| self.interval * f64::from(row)).collect()
     }
 
-    /// \[s\] the step of so many per interval.
+    /// \[s\] the step for the given number per interval.
     #[must_use]
     pub fn step(&self, steps: u64) -> f64 {
         rounded(self.interval / steps as f64, DIGITS)
@@ -193,7 +192,7 @@ mod tests {
                 }
             }
         }
-        // A rounder number is taken where one is near.
+        // A rounder number is used if one is near.
         let grid = grid(&scene(0.5, "every = 1e-3"), 0.5);
         assert_eq!(display(grid.step(grid.steps(8.3e-6))), "8us");
     }

@@ -1,16 +1,16 @@
-//! Joints that are meant to be ideal: how stiff, by which scheme and in which step.
+//! Approximation of ideal joints: stiffness, scheme and step.
 //!
-//! `(scene, tolerance, duration) => changes, scheme, step, how far off`. A third of the tolerance each for the step,
-//! for what the joints give way and for another model of the mechanism; each is measured by running:
+//! `(scene, tolerance, duration) => changes, scheme, step, error`. The step, the deflection of joints and another model
+//! of the mechanism may each use a third of the tolerance; each is measured by running:
 //!
 //! - the step is halved until two runs agree, by [`SchemeName::GeneralizedAlpha3`], whose step no stiffness bounds;
-//! - joints are made ten times as stiff until that changes the motion no more: what they give way falls as 1/k, so
-//!   that ten ninths of the change is all of it;
-//! - `generalized-alpha`, whose steps cost about a quarter, and the cheapest model of the mechanism are taken where they
-//!   lead to the same.
+//! - joints are made ten times as stiff until the motion no longer changes: their deflection falls as 1/k, so that it
+//!   is ten ninths of the change;
+//! - `generalized-alpha`, whose steps cost about a quarter, and the cheapest model of the mechanism are used if they
+//!   give the same motion.
 //!
-//! Distances are root mean squares over bodies and samples ([`Metric`](crate::reference::metric::Metric)), as
-//! `advise` has them.
+//! Distances are root mean squares over bodies and samples ([`Metric`](crate::reference::metric::Metric)), as in
+//! `advise`.
 
 use dbd_plant::digits::significant;
 use dbd_plant::{Frequencies, Method, PrecisionName, SchemeName, plant};
@@ -27,7 +27,7 @@ const SAMPLES: u64 = 50;
 const LONGEST: f64 = 5e-3;
 /// Steps of one run, times bodies, beyond which the search ends.
 const MOST: f64 = 4e6;
-/// \[m\] what is asked for at least.
+/// \[m\] smallest valid tolerance.
 const LEAST: f64 = 1e-10;
 /// Steps of the ladder of stiffness.
 const STIFFER: f64 = 10.0;
@@ -39,26 +39,26 @@ const STIFFEST: f64 = 1e13;
 pub struct Ideal {
     /// The scene with its changes.
     pub scene: Scene,
-    /// The changes, as `--set` takes them.
+    /// The changes in the form of `--set`.
     pub set: Vec<String>,
     /// \[N/m\] the stiffest joint's stiffness.
     pub stiffness: f64,
-    /// What the model of the mechanism is called: `as it is`, `planar-bushing`.
+    /// Name of the model of the mechanism: `as it is`, `planar-bushing`.
     pub model: &'static str,
     /// Scheme and precision.
     pub method: Method,
     /// \[s\] the step.
     pub step: f64,
-    /// \[m\] how far the step leads off.
+    /// \[m\] error of the step.
     pub by_step: f64,
-    /// \[m\] how far the joints give way leads off.
+    /// \[m\] error of the joints' deflection.
     pub by_joints: f64,
-    /// \[m\] how far the other model leads off; 0 of the scene as it is.
+    /// \[m\] error of the other model; 0 for the scene as it is.
     pub by_model: f64,
 }
 
 impl Ideal {
-    /// \[m\] how far all of it leads off.
+    /// \[m\] total error.
     #[must_use]
     pub fn off(&self) -> f64 {
         self.by_step + self.by_joints + self.by_model
@@ -69,9 +69,9 @@ impl Ideal {
 #[derive(Clone, Debug, Error, Diagnostic, PartialEq)]
 pub enum IdealError {
     /// The scene has no joint whose stiffness may be chosen.
-    #[error("the scene `{scene}` has no joint that could be ideal")]
+    #[error("the scene `{scene}` has no joint that could be made ideal")]
     #[diagnostic(help(
-        "a joint with a clearance is meant to give way, and a scene of springs alone has no joints"
+        "add a joint without clearance: joints with a clearance and TSDAs cannot be ideal"
     ))]
     NoJoint {
         /// Its name.
@@ -79,12 +79,12 @@ pub enum IdealError {
     },
     /// No stiffness and step that were tried are good enough.
     #[error(
-        "joints that lead off by at most {} m are not reached over {} s: {what}",
+        "joint error of at most {} m is not reachable over {} s: {what}",
         significant(*.asked, 2),
         significant(*.duration, 3)
     )]
     #[diagnostic(help(
-        "take a shorter --duration, for errors grow along sensitive motion, or a larger length than {} m",
+        "use a shorter --duration, because errors grow along sensitive motion, or a tolerance larger than {} m",
         significant(*.asked, 2)
     ))]
     NotReached {
@@ -92,12 +92,12 @@ pub enum IdealError {
         asked: f64,
         /// \[s\].
         duration: f64,
-        /// What the last try came to.
+        /// Result of the last trial.
         what: String,
     },
 }
 
-/// A run in so many steps per unit, and how far its step leads off.
+/// A run with the given steps per unit, and the error of its step.
 struct Run {
     steps: u64,
     off: f64,
@@ -105,9 +105,9 @@ struct Run {
     states: Vec<State>,
 }
 
-/// What is run.
+/// Sampling of the runs.
 struct Frame {
-    /// \[s\] what steps are whole parts of.
+    /// \[s\] the time that steps divide.
     unit: f64,
     /// Units between samples.
     between: u64,
@@ -116,7 +116,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// Whole parts of the sampling interval, where there is one.
+    /// Fractions of the sampling interval, if there is one.
     fn new(duration: f64, every: Option<f64>, third: f64) -> Self {
         let Some(every) = every.filter(|every| *every < duration) else {
             return Self { unit: duration / SAMPLES as f64, between: 1, samples: SAMPLES, third };
@@ -161,7 +161,7 @@ impl Frame {
             if self.work(scene, 2 * steps) > MOST {
                 return Err(match best.is_finite() {
                     true => format!("halving the step still changes the motion by {best:.1e} m"),
-                    false => "no run comes to its end".into(),
+                    false => "no run completes".into(),
                 });
             }
             let fine = self.motion(scene, scheme, 2 * steps);
@@ -177,8 +177,8 @@ impl Frame {
     }
 }
 
-/// How to run a scene whose joints are to lead off by at most `tolerance` \[m\] over `duration` \[s\], in steps that
-/// are whole parts of `every` \[s\].
+/// How to run a scene with an error of at most `tolerance` \[m\] from ideal joints over `duration` \[s\], in steps that
+/// divide `every` \[s\].
 ///
 /// # Errors
 /// [`IdealError`].
@@ -195,7 +195,7 @@ pub fn ideal(
     let frame = Frame::new(duration, every, tolerance / 3.0);
     let refuse = |what: String| IdealError::NotReached { asked: tolerance, duration, what };
     if tolerance < LEAST {
-        return Err(refuse("rounding moves bodies by as much".into()));
+        return Err(refuse("rounding errors are as large".into()));
     }
     let frequencies = Frequencies::of(scene);
     let longest = LONGEST.min(frequencies.longest_turn()).min(frequencies.period / 40.0);
@@ -221,12 +221,12 @@ pub fn ideal(
             names.iter().map(|name| format!("joint.{name}.stiffness={stiffness:e}")).collect();
         let stiffer = set.iter().try_fold(scene.clone(), |scene, change| scene.with(change));
         let stiffer = stiffer.map_err(|error| refuse(error.to_string()))?;
-        // Soft joints that vibrate visibly take steps that resolve it; stiff ones hardly move.
+        // Soft joints with visible vibration need steps that resolve it; stiff ones hardly move.
         let from = run.as_ref().map_or(least, |run| run.steps.div_ceil(2));
         let other = frame.resolved(&stiffer, from);
         if let (Ok(run), Ok(other)) = (&run, &other) {
             let change = distance((&stiffer, &other.states), (&present.0, &run.states));
-            // Of what falls as 1/k this is all but what the stiffer joints give way.
+            // The deflection falls as 1/k; this excludes that of the stiffer joints.
             let off = change / (1.0 - present.2 / stiffness);
             if off <= frame.third {
                 break off;
@@ -284,7 +284,7 @@ pub fn ideal(
             by_model,
         });
     }
-    Err(refuse("no model of the mechanism comes to its end".into()))
+    Err(refuse("no model of the mechanism completes the run".into()))
 }
 
 /// \[N/m\] the next power of ten that is at least half a ladder's step above.
@@ -293,7 +293,7 @@ fn next(stiffness: f64) -> f64 {
     10.0_f64.powf(next)
 }
 
-/// Joints that hold ideally where they are stiff: all but those with a clearance.
+/// Joints that become ideal with stiffness: all except those with a clearance.
 fn ideal_joints(scene: &Scene) -> Vec<&str> {
     let joints = scene.joints.iter().filter(|joint| {
         let mut groups = joint.groups.clone();

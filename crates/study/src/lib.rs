@@ -1,37 +1,37 @@
 //! Studies of a scene: speed against accuracy, sweeps, reference solutions.
 //!
-//! `scene => truth over a window => points (error, energy, cost) => fronts, chart, sentences`. The
-//! modules in the order in which they stand on each other:
+//! `scene => reference solution over a window => points (error, energy, cost) => fronts, chart, sentences`. The modules
+//! in dependency order:
 //!
-//! - [`reference`](mod@reference): the same equations in plain Rust, which share no force code with the kernel.
+//! - [`reference`](mod@reference): the same equations in plain Rust, without force code of the kernel.
 //! - [`plot`]: axes, curves and maps as SVG.
 //! - [`sweep`]: one scene, many values, one row per case.
 //! - [`modes`](mod@modes): small vibrations about a pose.
 //! - [`stability`](mod@stability): the largest stable step of a method about a pose.
-//! - [`point`]: what a point is, and which of them nothing beats.
-//! - [`costs`]: what a step costs on the target, as counted.
-//! - [`estimate`]: the same of any scene, by its bodies and elements.
+//! - [`point`]: points and their Pareto front.
+//! - [`costs`]: counted cost of a step on the target.
+//! - [`estimate`]: estimated cost for any scene, by its bodies and elements.
 //! - [`grid`]: the times compared, and the steps that reach them.
-//! - [`frame`](mod@frame): what a survey is asked for.
-//! - [`ways`]: all ways of stepping a scene, and their ladders of steps.
-//! - [`limits`]: how long a step of each may be.
-//! - [`measure`]: how far off a way is at a step.
-//! - [`timing`]: what a step costs a host.
-//! - [`variants`](mod@variants): other models of the mechanism, and how their motion differs.
-//! - [`cache`]: results, kept as they come.
-//! - [`order`]: how errors fall with the step, and what keeps them from it.
+//! - [`frame`](mod@frame): options of a study.
+//! - [`ways`]: all methods for a scene, and their ladders of steps.
+//! - [`limits`]: largest stable and advised steps.
+//! - [`measure`]: error of a method at a step.
+//! - [`timing`]: cost of a step on a host.
+//! - [`variants`](mod@variants): other models of the mechanism, and the difference of their motion.
+//! - [`cache`]: cached results.
+//! - [`order`]: observed convergence orders and their limits.
 //! - [`survey`](mod@survey): all points, in parallel.
-//! - [`need`]: what the paper's scheme costs at an accuracy.
-//! - [`words`]: steps, costs and steppers as people read them.
-//! - [`advice`]: what to choose, in sentences.
-//! - [`recommend`](mod@recommend): one way of stepping a scene on a microcontroller.
-//! - [`precisions`]: what rounding costs on the target, in a sentence.
-//! - [`ideal`](mod@ideal): how stiff joints are that are meant to be ideal, and how to step them.
-//! - [`variants_table`]: the scene beside its variants, as a table.
-//! - [`front_table`]: what nothing beats, as a table.
-//! - [`command`]: how to run it.
-//! - [`chart`], [`page`]: what people look at.
-//! - [`files`]: writes it and `trade.csv`.
+//! - [`need`]: cost of the paper's scheme at an accuracy.
+//! - [`words`]: texts of steps, costs and steppers.
+//! - [`advice`]: choices in sentences.
+//! - [`recommend`](mod@recommend): one method for a scene on a microcontroller.
+//! - [`precisions`]: cost of the precisions on the target, in a sentence.
+//! - [`ideal`](mod@ideal): approximation of ideal joints: stiffness, scheme and step.
+//! - [`variants_table`]: the scene and its variants as a table.
+//! - [`front_table`]: the Pareto front as a table.
+//! - [`command`]: command line of a measured run.
+//! - [`chart`], [`page`]: chart and page for people.
+//! - [`files`]: writes them and `trade.csv`.
 //! - [`paper`]: the results of the method's paper, measured again.
 
 pub mod advice;

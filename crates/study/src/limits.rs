@@ -1,10 +1,10 @@
-//! How long a step of a way of stepping may be: what is stable, and what is advised.
+//! Step limits of a method: the largest stable and the largest advised step.
 //!
-//! `(scene, ways) => per way the largest stable step and the largest advised one`. Stable is what the
-//! linear limit bears at the highest frequency of the pose at t = 0, preloads included, and what
-//! [`crate::stability`] finds by running, dampers included and out of the plane of a planar motion,
-//! too. Advised is what keeps [`MARGIN`] below that, and in which no body turns too far: a run takes it
-//! without a warning. Explicit references with dampers are judged by the kernel's explicit step.
+//! `(scene, methods) => largest stable and largest advised step per method`. A stable step is within the linear limit
+//! at the highest frequency of the pose at t = 0, preloads included, and within the limit that [`crate::stability`]
+//! finds by running, with dampers and motion out of the plane of a planar scene. An advised step is [`MARGIN`] below
+//! that, and no body rotates too far: a run accepts it without a warning. Explicit references with dampers use the
+//! limit of the kernel's explicit step.
 
 use dbd_kernel::State;
 use dbd_plant::{DampingName, Frequencies, Method, OrientationName, PrecisionName, SchemeName};
@@ -13,11 +13,11 @@ use dbd_scene::Scene;
 use crate::stability::{MARGIN, Vibration};
 use crate::ways::Way;
 
-/// A step beyond the limit by more than this share counts as unstable: limits are found to less, and
-/// the estimate of the frequency is at most as much low.
+/// A step above the limit by more than this fraction counts as unstable: limits are found more accurately, and the
+/// estimate of the frequency is at most this much too low.
 const SLACK: f64 = 0.01;
 
-/// What bounds the steps of a scene, whatever steps it.
+/// Bounds of the steps of a scene, independent of the method.
 #[derive(Clone, Debug)]
 pub struct Limits {
     frequencies: Frequencies,
@@ -25,17 +25,17 @@ pub struct Limits {
     damped: bool,
 }
 
-/// How long a step of a way may be.
+/// Step limits of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// \[s\] the largest stable step; 0 where none is, infinite where all are.
     pub stable: f64,
-    /// \[s\] the largest that is advised: below it by [`MARGIN`], or shorter where a body spins fast.
+    /// \[s\] the largest advised one: below it by [`MARGIN`], or shorter if a body rotates fast.
     pub advised: f64,
 }
 
 impl Limit {
-    /// Whether a step is beyond what is stable.
+    /// Whether a step exceeds the stable one.
     #[must_use]
     pub fn is_beyond(&self, step: f64) -> bool {
         step > self.stable * (1.0 + SLACK)
@@ -64,7 +64,7 @@ impl Limits {
         Self { frequencies: Frequencies::of(scene), vibration, damped }
     }
 
-    /// The limits of a scene in space, whether or not it is planar: it may tip out of its plane.
+    /// The limits of a scene in space, also if it is planar: it may leave its plane.
     #[must_use]
     pub fn in_space(scene: &Scene) -> Self {
         let mut spatial = scene.clone();
@@ -79,8 +79,8 @@ impl Limits {
         self.frequencies.estimate.max(found)
     }
 
-    /// The method whose stability decides for a way's: precision and orientation leave it as it is.
-    /// `None` where only the linear limit does.
+    /// The method whose stability decides for a method's: precision and orientation do not change it. `None` if only
+    /// the linear limit does.
     #[must_use]
     pub fn decisive(&self, way: &Way) -> Option<Method> {
         self.vibration.as_ref()?;
@@ -110,7 +110,7 @@ impl Limits {
         found.map_or(f64::INFINITY, |found| found.map_or(0.0, |found| found.largest_step))
     }
 
-    /// The limit of a way, given what was [`found`](Self::found) for its decisive method.
+    /// The limit of a method, given the one [`found`](Self::found) for its decisive method.
     #[must_use]
     pub fn limit(&self, way: &Way, found: Option<f64>) -> Limit {
         let highest = self.highest();

@@ -1,7 +1,7 @@
-//! How far off a way of stepping is.
+//! Error of a method.
 //!
-//! `(scene, truth, way, steps per interval) => error, energy`, a pure function of its inputs. All start
-//! from the truth, so t = 0 is no sample: it would dilute the means.
+//! `(scene, reference solution, method, steps per interval) => error, energy`, a pure function of its inputs. All start
+//! from the reference solution, so t = 0 is not a sample: it would dilute the means.
 
 use crate::reference::implicit::Implicit;
 use crate::reference::metric::Metric;
@@ -14,14 +14,14 @@ use dbd_scene::Scene;
 use crate::grid::Grid;
 use crate::ways::Way;
 
-/// What a run over the window came to.
+/// Result of a run over the window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
     /// Whether it came to its end without growth beyond all measure.
     pub stable: bool,
-    /// Whether its error exceeds the way that the truth itself goes.
+    /// Whether its error exceeds the displacement of the reference solution.
     pub lost: bool,
-    /// \[m\] root mean square over bodies and samples of the distance from the truth.
+    /// \[m\] root mean square over bodies and samples of the distance from the reference solution.
     pub error: Option<f64>,
     /// \[J\] root mean square over samples of the energy's error, where energy should stay.
     pub energy_rms: Option<f64>,
@@ -29,7 +29,7 @@ pub struct Accuracy {
     pub energy_peak: Option<f64>,
 }
 
-/// A run that did not come to its end.
+/// A run that did not complete.
 pub const UNSTABLE: Accuracy =
     Accuracy { stable: false, lost: false, error: None, energy_rms: None, energy_peak: None };
 
@@ -37,7 +37,7 @@ pub const UNSTABLE: Accuracy =
 /// coarsest accuracy that is spoken of.
 const LEAST_TRAVEL: f64 = 1e-3;
 
-/// What is compared.
+/// Data of the comparison.
 pub struct Comparison<'c> {
     /// The scene.
     pub scene: &'c Scene,
@@ -48,12 +48,12 @@ pub struct Comparison<'c> {
     /// Whether nothing changes its energy.
     pub conservative: bool,
     metric: Metric,
-    /// \[m\] the largest distance of the truth from its start.
+    /// \[m\] the largest displacement of the reference solution from its start.
     travel: f64,
 }
 
 impl<'c> Comparison<'c> {
-    /// Comparisons of a scene with its truth.
+    /// Comparisons of a scene with its reference solution.
     #[must_use]
     pub fn new(scene: &'c Scene, grid: Grid, truth: &'c [State]) -> Self {
         let metric = Metric::of(&Mechanism::of(scene).0);
@@ -62,7 +62,7 @@ impl<'c> Comparison<'c> {
         Self { scene, grid, truth, conservative: conserves_energy(scene), metric, travel }
     }
 
-    /// How far off a way is with so many steps per interval of the truth.
+    /// Error of a method with the given number of steps per interval of the reference solution.
     #[must_use]
     pub fn accuracy(&self, way: &Way, steps: u64) -> Accuracy {
         let step = self.grid.step(steps);
@@ -129,8 +129,7 @@ impl<'c> Comparison<'c> {
         self.judged(&samples, None)
     }
 
-    /// The verdict on a run's samples, t = 0 first, with the energy error's square sum and peak where it
-    /// says anything.
+    /// The verdict on a run's samples, t = 0 first, with the energy error's square sum and peak if meaningful.
     fn judged(&self, samples: &[State], energy: Option<(f64, f64)>) -> Accuracy {
         let after = samples.get(1..).unwrap_or_default();
         let error = self.metric.error(&self.truth[1..], after);
@@ -174,7 +173,7 @@ mod tests {
                     mass = 1.0\nposition = [0.0, 0.0, 0.0]\ninertia = [1.0, 1.0, 1.0]\n";
         let scene = Scene::parse(text, "a.toml").unwrap();
         let grid = Grid::new(1e-3, 0.05);
-        // The body rests; the truth has it a millimetre off from the first sample on.
+        // The body rests; the reference solution differs by a millimetre from the first sample on.
         let start = Mechanism::of(&scene).1;
         let mut truth = vec![start; grid.times().len()];
         truth[1..].iter_mut().for_each(|state| state.bodies[0].position.x = 1e-3);

@@ -1,9 +1,9 @@
 //! Small vibrations about a pose: undamped eigenfrequencies and shapes.
 //!
 //! `(model, state) => M⁻½·K·M⁻½ => frequencies, shapes`, K by differences of the kernel's wrenches.
-//! Freedoms are, per body, shifts along the world's axes and turns about the body's. Preloads and
-//! gravity are in K, which is symmetric where the pose is at rest in equilibrium. Dampers and
-//! velocities are left out; play counts as it is in the pose.
+//! Degrees of freedom are, per body, translations along the world's axes and rotations about the body's. K includes
+//! preloads and gravity; it is symmetric if the pose is in equilibrium. Dampers and velocities are excluded; clearances
+//! are as in the pose.
 
 use std::f64::consts::TAU;
 
@@ -40,7 +40,7 @@ const CALM: f64 = 1e-2;
 pub struct Modes {
     /// \[Hz\] ascending; that of a negative stiffness is negative, one below `resolution` is 0.
     pub frequencies: Vec<f64>,
-    /// Shapes in the same order, in columns: shifts and turns per body, scaled by √m and √I, of
+    /// Shapes in the same order, in columns: translations and rotations per body, scaled by √m and √I, of
     /// unit length.
     pub shapes: DMatrix<f64>,
     /// The largest difference of K and its transpose over the largest entry, both scaled by mass.
@@ -50,8 +50,8 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// What the bodies do in a mode: shifts along the world's axes \[m\], then turns about each body's
-    /// own \[rad\]; the largest of all numbers is 1 and positive.
+    /// Motion of the bodies in a mode: translations along the world's axes \[m\], then rotations about each body's axes
+    /// \[rad\]; the largest of all numbers is 1 and positive.
     #[must_use]
     pub fn motion(&self, model: &SceneModel<F64>, mode: usize) -> Vec<[f64; 6]> {
         let roots = roots(model);
@@ -63,8 +63,8 @@ impl Modes {
         raw.chunks_exact(6).map(|body| std::array::from_fn(|i| body[i] * scale)).collect()
     }
 
-    /// What forces, scaled by 1/√m and 1/√I, do to the bodies: how far the modes that are held give way \[m\],
-    /// and how fast the others set off \[m/s²\]; of each the body that does most, and how much.
+    /// Response of the bodies to forces scaled by 1/√m and 1/√I: deflection of the elastic modes \[m\] and acceleration
+    /// of the others \[m/s²\]; of each the body with the largest value, and that value.
     fn answer(&self, model: &SceneModel<F64>, forces: &DVector<f64>) -> [(usize, f64); 2] {
         let roots = roots(model);
         let most = |weight: &dyn Fn(f64) -> f64| {
@@ -100,7 +100,7 @@ impl Modes {
     }
 }
 
-/// M⁻½·Q \[√kg·m/s²\], bodies at rest: what acts on them but for dampers and spins.
+/// M⁻½·Q \[√kg·m/s²\], bodies at rest: all forces except dampers and gyroscopic ones.
 ///
 /// # Errors
 /// Where a force is undefined.
@@ -116,7 +116,7 @@ pub fn weighted_forces(
 /// `M⁻½·K·M⁻½` \[1/s²\] and its asymmetry, 0 where K is 0.
 ///
 /// # Errors
-/// Where a twist is undefined, or an entry beyond the range of numbers.
+/// If a torsion angle is undefined, or an entry overflows.
 pub fn scaled_stiffness(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,
@@ -131,7 +131,7 @@ pub fn scaled_stiffness(
 /// `M⁻½·C·M⁻½` \[1/s\].
 ///
 /// # Errors
-/// Where a twist is undefined, or an entry beyond the range of numbers.
+/// If a torsion angle is undefined, or an entry overflows.
 pub fn scaled_damping(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,
@@ -162,7 +162,7 @@ fn frequency(square: f64, resolution: f64) -> f64 {
 /// The modes about the pose of `state`, whatever its velocities: six per body.
 ///
 /// # Errors
-/// Where there are more than [`MOST_BODIES`] bodies, a twist is undefined, or numbers overflow.
+/// If there are more than [`MOST_BODIES`] bodies, a torsion angle is undefined, or numbers overflow.
 pub fn modes(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> Result<Modes, ModesError> {
     if model.bodies.len() > MOST_BODIES {
         return Err(ModesError::TooMany { bodies: model.bodies.len() });
@@ -182,11 +182,10 @@ pub fn modes(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> Result<
     })
 }
 
-/// What the modes of a scene at t = 0 do not say, in sentences: of a pose that moves or is not in
-/// equilibrium, of modes that run away.
+/// Remarks on the modes of a scene at t = 0: moving pose, pose out of equilibrium, unstable modes.
 ///
 /// # Errors
-/// Where a twist is undefined.
+/// If a torsion angle is undefined.
 pub fn remarks(scene: &Scene, modes: &Modes) -> Result<Vec<String>, ModesError> {
     let (model, state) = (&scene.model, State::initial(&scene.model));
     let mut remarks = Vec::new();
@@ -194,7 +193,7 @@ pub fn remarks(scene: &Scene, modes: &Modes) -> Result<Vec<String>, ModesError> 
         |body: &BodyState<F64>| body.velocity != Vec3::ZERO || body.angular_velocity != Vec3::ZERO;
     if state.bodies.iter().any(moving) {
         remarks.push(
-            "the scene moves at t = 0; its modes are those of the same pose at rest".to_owned(),
+            "the scene moves at t = 0; the modes are those of the same pose at rest".to_owned(),
         );
     }
     let off = weighted_forces(model, &state)?;
@@ -203,20 +202,20 @@ pub fn remarks(scene: &Scene, modes: &Modes) -> Result<Vec<String>, ModesError> 
         let name = |row: usize| scene.body_names.get(row).map_or("a body", String::as_str);
         let place = if free.1 > CALM {
             let (name, rate) = (name(free.0), significant(free.1, 3));
-            format!("nothing holds `{name}`, which sets off with {rate} m/s²")
+            format!("`{name}` is unsupported and accelerates with {rate} m/s²")
         } else {
             let (name, way) = (name(held.0), significant(1e3 * held.1, 3));
-            format!("forces balance some {way} mm away, as far as `{name}` goes")
+            format!("`{name}` reaches equilibrium about {way} mm away")
         };
         remarks.push(format!(
-            "the pose is not in equilibrium: let go at rest, {place}; the modes are those about the pose \
-             held as it is, and slow ones, which weight and preload make, are others where it rests"
+            "the pose is not in equilibrium: released at rest, {place}; the modes are those about the \
+             given pose, and low modes, which depend on weight and preload, differ at equilibrium"
         ));
     }
     match modes.unstable() {
         0 => {}
-        1 => remarks.push("the mode of a negative frequency runs away from the pose".to_owned()),
-        n => remarks.push(format!("{n} modes, of negative frequencies, run away from the pose")),
+        1 => remarks.push("one mode has a negative frequency: it is unstable".to_owned()),
+        n => remarks.push(format!("{n} modes have negative frequencies: they are unstable")),
     }
     Ok(remarks)
 }

@@ -1,7 +1,7 @@
-//! What the paper's scheme would cost at an accuracy, read from its measured steps.
+//! Cost of the paper's scheme at an accuracy, from its measured steps.
 //!
-//! `points, error => cost, and how it is known`: straight between two steps in the logarithms,
-//! beyond the last along the last two, at most two decades of error far.
+//! `points, error => cost, and its origin`: log-linear interpolation between two steps, extrapolation from the last two
+//! by at most two decades of error.
 
 use crate::point::{Machine, Point, Stepper, is_paper};
 
@@ -11,7 +11,7 @@ const LEAST_ORDER: f64 = 0.5;
 /// By how much the error of the last step is divided at most where none was measured.
 const FURTHEST: f64 = 100.0;
 
-/// What a stepper costs at an accuracy.
+/// Cost of a stepper at an accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Need {
     /// Its largest stable step is better than that already.
@@ -33,20 +33,20 @@ pub enum Need {
         /// By which power of the step the error falls there.
         order: f64,
     },
-    /// Further beyond than that.
+    /// Beyond the extrapolation range.
     MoreThan {
-        /// As far as it was carried on.
+        /// At the end of the extrapolation range.
         cost: f64,
     },
-    /// Its error does not fall any further with the step.
+    /// Its error no longer falls with the step.
     Never,
     /// No step of it is stable.
     Unstable,
-    /// What a step costs is not known.
+    /// The cost of a step is unknown.
     Uncounted,
 }
 
-/// What the paper's scheme needs, and in which precision.
+/// Cost of the paper's scheme, and its precision.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperNeed {
     /// The need.
@@ -68,9 +68,8 @@ impl Need {
     }
 }
 
-/// What the paper's scheme costs at an accuracy \[m\]; `None` where it is not among the points. On the
-/// target, whose FPU has single precision, in the cheaper precision that reaches it, or in the one
-/// that was counted.
+/// Cost of the paper's scheme at an accuracy \[m\]; `None` if it is not among the points. On the
+/// target, whose FPU has single precision, in the cheaper precision that reaches it, or in the counted one.
 #[must_use]
 pub fn paper_need(points: &[Point], machine: Machine, target: f64) -> Option<PaperNeed> {
     let of = |precision: &str| {
@@ -88,7 +87,7 @@ pub fn paper_need(points: &[Point], machine: Machine, target: f64) -> Option<Pap
     if double.need == Need::Uncounted {
         return Some(single);
     }
-    // In single precision its error stops falling, so only what was measured counts.
+    // In single precision its error stops falling, so only measured points count.
     let measured = matches!(single.need, Need::Largest { .. } | Need::Between { .. });
     let cheaper = single.need.cost() < Some(double.need.cost().unwrap_or(f64::INFINITY));
     Some(if measured && cheaper { single } else { double })
@@ -127,7 +126,7 @@ fn need(known: &[(f64, f64, f64)], target: f64) -> Need {
     for pair in known.windows(2) {
         let [(_, cost, error), (_, next_cost, next_error)] = pair else { continue };
         if *next_error <= target {
-            // An exact result has no logarithm: its step is then what is needed.
+            // An exact result has no logarithm: its step is used.
             let share = match *next_error > 0.0 {
                 true => (error / target).ln() / (error / next_error).ln(),
                 false => 1.0,
@@ -183,7 +182,7 @@ mod tests {
         assert!((cost / (1e-6 * 10_f64.powf(4.5)) - 1.0).abs() < 1e-12);
         let Need::Beyond { cost, order } = need(1.001e-7) else { panic!() };
         assert!((cost * 1.001e-1 - 1.0).abs() < 1e-9 && (order - 1.0).abs() < 1e-12);
-        // Further than two decades nothing is carried on.
+        // No extrapolation beyond two decades.
         let Need::MoreThan { cost } = need(1e-9) else { panic!() };
         assert!((cost / 1e1 - 1.0).abs() < 1e-9);
         // An error that does not fall is not carried on.

@@ -1,8 +1,8 @@
-//! With which power of the step an error falls, and what keeps it from falling faster.
+//! Observed convergence orders, and their limits.
 //!
-//! `(points, facts, scene) => per point the observed order, and what limits it`. All is read from the
-//! measured errors of a stepper's ladder; the scene says only which causes come into question. Where
-//! an order falls short and no cause is known, nothing is said.
+//! `(points, facts, scene) => per point the observed order, and what limits it`. Orders come from the measured errors
+//! of a stepper's ladder; the scene only determines the possible causes. A reduced order without a known cause is not
+//! reported.
 
 use dbd_kernel::damping::Damping;
 use dbd_plant::Method;
@@ -13,11 +13,10 @@ use crate::point::{Cause, Fall, Point, Stepper};
 /// An observed order that lies below the stated one by more than this falls short.
 const SHORT: f64 = 0.6;
 
-/// Errors nearer than this factor to what the truth is known to, or to what rounding leaves, say nothing
-/// of an order.
+/// Errors within this factor of the uncertainty of the reference solution, or of rounding, are not used for orders.
 const CLEAR: f64 = 10.0;
 
-/// What of a scene comes into question within a window.
+/// Possible causes of a scene within a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Influences {
     /// It has dampers.
@@ -27,7 +26,7 @@ pub struct Influences {
 }
 
 impl Influences {
-    /// What comes into question in the first `window` \[s\] of a scene.
+    /// Possible causes in the first `window` \[s\] of a scene.
     #[must_use]
     pub fn of(scene: &Scene, window: f64) -> Self {
         let within = |time: f64| time > 0.0 && time < window;
@@ -39,8 +38,8 @@ impl Influences {
     }
 }
 
-/// Says of each point how its stepper's error falls there. `methods` has the method of each point of
-/// the kernel; what lies below `uncertainty` \[m\] is not known.
+/// Sets the convergence of each point. `methods` has the method of each point of the kernel; errors below `uncertainty`
+/// \[m\] are unknown.
 pub fn describe(
     points: &mut [Point],
     methods: &[Option<Method>],
@@ -63,7 +62,7 @@ pub fn describe(
     points.iter_mut().zip(falls).for_each(|(point, fall)| point.fall = fall);
 }
 
-/// Whether it is rounding that ends a stepper's ladder: double precision goes on.
+/// Whether rounding limits a stepper's ladder: double precision continues to converge.
 fn is_rounding(points: &[Point], stepper: &Stepper, ladder: &[(f64, f64)]) -> bool {
     if stepper.precision == "f64" {
         return false;
@@ -90,8 +89,8 @@ fn finest(ladder: &[(f64, f64)]) -> Option<f64> {
     (*step > ladder.last()?.0).then_some(*step)
 }
 
-/// The order from a step to the next smaller one; from the next larger one where there is none whose
-/// error exceeds `least` \[m\].
+/// The order from a step to the next smaller one; from the next larger one if there is none whose error exceeds `least`
+/// \[m\].
 fn order(ladder: &[(f64, f64)], step: f64, least: f64) -> Option<f64> {
     let known: Vec<(f64, f64)> = ladder.iter().copied().filter(|(_, e)| *e > least).collect();
     let place = known.iter().position(|(known, _)| *known == step)?;
@@ -103,7 +102,7 @@ fn order(ladder: &[(f64, f64)], step: f64, least: f64) -> Option<f64> {
     order.is_finite().then_some(order)
 }
 
-/// What an order falls short by, if it does.
+/// Cause of a reduced order, if any.
 fn cause(order: f64, method: &Method, influences: Influences) -> Option<Cause> {
     let [undamped, damped] = method.orders().map(f64::from);
     let stated = if influences.dampers { damped } else { undamped };
@@ -154,7 +153,7 @@ mod tests {
             (pefrl, CALM, 4, None),
             (pefrl, DRIVEN, 4, None),
             (pefrl, DRIVEN, 1, Some(Cause::LoadsAndTables)),
-            // Whatever the reason, it is not one that is known.
+            // The cause is unknown.
             (pefrl, CALM, 1, None),
             (pefrl, DAMPED, 2, Some(Cause::SweptDampers)),
             (pefrl, DAMPED, 4, None),
@@ -178,13 +177,13 @@ mod tests {
         let rounded = |h: f64| 1e6 * h.powi(4) + 1e-11 / h.sqrt();
         let single = falls(method(SchemeName::Pefrl, PrecisionName::F32), DAMPED, rounded);
         assert!(single.iter().all(|fall| fall.finest == Some(1e-4)), "{single:?}");
-        // Where rounding has its share no order is spoken of, and no damper is blamed.
+        // With rounding no order is reported, and no damper is named as a cause.
         assert!(single[0].order.is_some_and(|order| order > 3.9), "{single:?}");
         assert!(single[2..].iter().all(|fall| fall.order.is_none()), "{single:?}");
         assert!(single.iter().all(|fall| fall.cause.is_none()), "{single:?}");
         let double = falls(method(SchemeName::Pefrl, PrecisionName::F64), DAMPED, rounded);
         assert!(double.iter().all(|fall| fall.finest.is_none()));
-        // What double precision does not improve on either is no rounding.
+        // If double precision does not improve it either, it is not rounding.
         let leapfrog = method(SchemeName::Leapfrog, PrecisionName::F32);
         let flat = |h: f64| 1e-6 + 1e-9 / h;
         let of = |precision: &str| {

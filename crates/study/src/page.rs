@@ -1,5 +1,4 @@
-//! `trade.html`: the charts, what they say in words, and every point, in one page that needs no
-//! other file.
+//! `trade.html`: the charts, advice and every point in one self-contained page.
 //!
 //! `chart => HTML`.
 
@@ -78,7 +77,7 @@ fn machine(page: &mut String, chart: &Chart<'_>, machine: Machine, title: &str) 
     if rows.is_empty() {
         return;
     }
-    page.push_str("<h3>The front</h3>\n<div class=\"wide\"><table>\n<thead><tr>");
+    page.push_str("<h3>Pareto front</h3>\n<div class=\"wide\"><table>\n<thead><tr>");
     for (column, [name, unit]) in headings(machine).into_iter().enumerate() {
         let _ = write!(page, "<th{}>{name}<small>{unit}</small></th>", number(column != 1));
     }
@@ -99,14 +98,14 @@ fn machine(page: &mut String, chart: &Chart<'_>, machine: Machine, title: &str) 
         page.push_str("</tr>\n");
     }
     page.push_str(
-        "</tbody></table></div>\n<p>“Paper's scheme”: how many times this cost it needs to be as \
-         accurate, read between its own measured steps; * beyond them, by extrapolation along its \
-         last two and at most two decades of error far; ≤ at its largest step, which is more accurate \
-         still.</p>\n",
+        "</tbody></table></div>\n<p>“Paper's scheme”: the cost of the paper's scheme at equal \
+         accuracy, as a multiple of this cost, interpolated between its measured steps; * extrapolated \
+         from its last two steps, by at most two decades of error; ≤ at its largest step, which is \
+         more accurate.</p>\n",
     );
 }
 
-/// The scene beside its variants, where it has some.
+/// The scene and its variants, if any.
 fn variants(page: &mut String, chart: &Chart<'_>) {
     if chart.variants.is_empty() {
         return;
@@ -139,19 +138,16 @@ fn reading(page: &mut String, chart: &Chart<'_>) {
         page,
         "<h2>How to read it</h2>\n<ul>\n\
          <li>Each mark is one run: a scheme in a precision at a step. Further down is more \
-         accurate, further left is faster. Go along the line of the accuracy you need to the \
-         yellow band: the mark beneath it is the cheapest that was measured.</li>\n\
-         <li>The yellow band is the front: nothing measured is both faster and more accurate. \
+         accurate, further left is faster. Follow the line of the required accuracy to the yellow band: the mark below it is the cheapest one measured.</li>\n\
+         <li>The yellow band is the Pareto front: no measured point is both faster and more accurate. \
          The grey lines are references in plain Rust, without the kernel.</li>\n\
-         <li>The error is the distance of the bodies from where the truth has them, attitudes \
-         included, root mean square over bodies and samples of {window} s. The truth itself is known to {uncertainty} \
-         m: the grey floor, below which figures say nothing.</li>\n\
+         <li>The error is the distance of the bodies from the reference solution, attitudes included, root mean square over bodies and samples of {window} s. The reference solution is accurate to {uncertainty} m: the grey floor, below which errors are not significant.</li>\n\
          <li>The thick black line is the paper's scheme: explicit, no Newton iteration, double \
-         precision; on a Cortex-M4F the dashed one is the same in single.</li>\n\
-         <li>Hollow marks at the top ran unstable at their step; hollow marks elsewhere are \
-         not advised: they have lost their way, further off than the truth goes at all, or their step is \
-         within {margin} of the largest stable one, or turns a body too far. Point at a mark, or tap it, for its numbers, \
-         at a line to see it alone.</li>\n</ul>\n"
+         precision; on a Cortex-M4F the dashed line is the same in single.</li>\n\
+         <li>Hollow marks at the top are unstable at their step; hollow marks elsewhere are not \
+         advised: they are lost (their error exceeds the displacement of the reference solution), or \
+         their step is within {margin} of the largest stable one, or rotates a body too far. Point at \
+         a mark, or tap it, for its numbers, at a line to see it alone.</li>\n</ul>\n"
     );
 }
 
@@ -187,7 +183,7 @@ fn all(page: &mut String, chart: &Chart<'_>) {
         let _ = write!(page, "<td>{}{reference}</td>", escape(&point.stepper.label()));
         let error = match point.error.filter(|_| point.stable) {
             Some(error) if point.lost => format!("{error:.2e}, lost"),
-            Some(error) if !point.advisable => format!("{error:.2e}, too near the limit"),
+            Some(error) if !point.advisable => format!("{error:.2e}, too close to the limit"),
             Some(error) => format!("{error:.2e}"),
             None => "unstable".into(),
         };

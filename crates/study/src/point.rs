@@ -1,4 +1,4 @@
-//! A point of the trade: a way of stepping, what it costs and how far off it is.
+//! A point of the study: a method, its cost and its error.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ pub struct Stepper {
     pub scheme: String,
     /// Newton iterations, for the schemes that have them.
     pub newton: Option<u32>,
-    /// How dampers act where that is not the scheme's own way: `explicit`, `joint-wise`.
+    /// The damping mode if it is not the scheme's default: `explicit`, `joint-wise`.
     pub damping: Option<String>,
     /// `f64`, `f32` ….
     pub precision: String,
@@ -22,7 +22,7 @@ pub struct Stepper {
     pub kernel: bool,
 }
 
-/// What a stepper does at a step.
+/// Result of a stepper at a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Who steps.
@@ -34,12 +34,12 @@ pub struct Point {
     pub steps: u64,
     /// Whether the run came to its end without growth of energy; accuracy is `None` otherwise.
     pub stable: bool,
-    /// Whether it is further off than the truth itself goes: no trajectory any more.
+    /// Whether its error exceeds the displacement of the reference solution.
     pub lost: bool,
-    /// Whether it may be advised: its step keeps [`MARGIN`](crate::stability::MARGIN) below the largest
-    /// stable one, and a run takes it without a warning.
+    /// Whether it may be advised: its step is [`MARGIN`](crate::stability::MARGIN) below the largest stable one, and a
+    /// run accepts it without a warning.
     pub advisable: bool,
-    /// \[m\] root mean square over bodies and samples of the distance from the truth, see
+    /// \[m\] root mean square over bodies and samples of the distance from the reference solution, see
     /// [`Metric`](crate::reference::metric::Metric).
     pub error: Option<f64>,
     /// \[J\] root mean square of the energy's error; `None` where dampers, loads or inputs change it.
@@ -57,18 +57,18 @@ pub struct Point {
     pub host_spread: f64,
     /// Instructions per simulated second on Cortex-M4F, where they were counted.
     pub target_instructions: Option<f64>,
-    /// \[s\] of a planar scene the largest step that is stable in space, too, where it may tip; infinite, in JSON
-    /// null, where every step is.
+    /// \[s\] of a planar scene the largest step that is also stable in space, where it may leave the plane; infinite,
+    /// in JSON null, if every step is.
     pub step_in_space: Option<f64>,
     /// How the error falls with the step here.
     pub fall: Fall,
 }
 
-/// What keeps an error from falling as the scheme would have it.
+/// Cause of a reduced convergence order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cause {
-    /// Dampers swept around a step: order 2.
+    /// Damper passes around a step: order 2.
     SweptDampers,
     /// Dampers at the velocities of an evaluation.
     ExplicitDampers,
@@ -83,10 +83,10 @@ pub struct Fall {
     pub order: Option<f64>,
     /// The order that the scheme states without dampers.
     pub stated: Option<u32>,
-    /// What the order falls short by.
+    /// Cause of the reduced order.
     pub cause: Option<Cause>,
-    /// \[s\] the step of the ladder below which no step is more accurate, in other precisions than
-    /// double: what rounding leaves.
+    /// \[s\] the step of the ladder below which no step is more accurate, in other precisions than double: limited by
+    /// rounding.
     pub finest: Option<f64>,
 }
 
@@ -120,7 +120,7 @@ impl Stepper {
         Some(options)
     }
 
-    /// What people call it: `leapfrog f32`, `dbd +1 f64`, `leapfrog f64, euler-321`.
+    /// Its name: `leapfrog f32`, `dbd +1 f64`, `leapfrog f64, euler-321`.
     #[must_use]
     pub fn label(&self) -> String {
         let mut label = self.scheme.clone();
@@ -172,7 +172,7 @@ impl Point {
     }
 }
 
-/// Whether it is the paper's scheme as it stands: explicit, no Newton iteration, in double
+/// Whether it is the paper's scheme: explicit, no Newton iteration, in double
 /// precision; on the target also in single, which its FPU has.
 #[must_use]
 pub fn is_paper(stepper: &Stepper, machine: Machine) -> bool {
@@ -185,7 +185,7 @@ pub fn is_paper(stepper: &Stepper, machine: Machine) -> bool {
         && stepper.orientation == "quaternion"
 }
 
-/// Methods of the kernel whose cost is known on a machine: so many steppers, micromath aside.
+/// Number of kernel methods with known cost on a machine, without micromath.
 #[must_use]
 pub fn counted(points: &[Point], machine: Machine) -> usize {
     let known = |point: &&Point| point.stepper.kernel && point.cost(machine).is_some();
@@ -193,8 +193,8 @@ pub fn counted(points: &[Point], machine: Machine) -> usize {
     steppers.filter(|stepper| stepper.is_exact()).collect::<BTreeSet<_>>().len()
 }
 
-/// Rows of the points that no other beats on a machine: none is at most as far off for at most the
-/// cost. Ascending in cost. Loose arithmetic and what has lost its way are left out.
+/// Rows of the Pareto front on a machine: no other point has at most the error at at most the cost. Ascending in cost.
+/// Approximate arithmetic and lost points are excluded.
 #[must_use]
 pub fn front(points: &[Point], machine: Machine) -> Vec<usize> {
     let mut rows: Vec<(f64, f64, usize)> = points

@@ -1,6 +1,6 @@
-//! What single precision costs a scene on the target, and what fixed point costs and gives, in a sentence.
+//! Accuracy and cost of single precision and fixed point on the target, in a sentence.
 //!
-//! `points => sentence`: the smallest error that a usable step of each precision reaches, and what a step takes.
+//! `points => sentence`: the smallest error that a usable step of each precision reaches, and the cost of a step.
 
 use dbd_plant::digits::significant;
 use dbd_plant::time::rounded;
@@ -8,7 +8,7 @@ use dbd_plant::time::rounded;
 use crate::point::{Machine, Point};
 use crate::words::{named, shown, times};
 
-/// The precision that a unit for single precision computes in, and those beside it.
+/// The precision of a single-precision FPU, and the others.
 const SINGLE: &str = "f32";
 const FIXED: &str = "fixed";
 const DOUBLE: &str = "f64";
@@ -21,8 +21,7 @@ fn best<'p>(points: &'p [Point], precision: &str) -> Option<(&'p Point, f64)> {
     reached.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// How many times the instructions of a step in single precision a step takes, the middle of the steppers that
-/// both are known of.
+/// Instructions of a step relative to single precision, median over the steppers with both.
 fn over_single(points: &[Point], precision: &str) -> Option<f64> {
     let per_step = |point: &Point| Some(point.target_instructions? * point.step);
     let of = |point: &&Point| point.stepper.kernel && point.stepper.precision == precision;
@@ -40,8 +39,8 @@ fn over_single(points: &[Point], precision: &str) -> Option<f64> {
     ratios.get(ratios.len() / 2).copied()
 }
 
-/// What f32 costs here, what fixed point costs and gives; `None` where either was not counted. Nothing is told apart
-/// below what the truth is known to \[m\].
+/// Sentence on f32 and fixed point; `None` if either was not counted. Errors below the uncertainty \[m\] of the
+/// reference solution are not distinguished.
 #[must_use]
 pub fn of_precisions(points: &[Point], uncertainty: f64) -> Option<String> {
     let ((single, floor), (fixed, reached)) = (best(points, SINGLE)?, best(points, FIXED)?);
@@ -50,7 +49,7 @@ pub fn of_precisions(points: &[Point], uncertainty: f64) -> Option<String> {
         false => significant(rounded(error, 2), 2),
     };
     let mut text = format!(
-        "in f32 nothing gets nearer than {} m here ({}, step {})",
+        "in f32 the smallest error here is {} m ({}, step {})",
         metres(floor),
         named(&single.stepper),
         shown(single.step),
@@ -62,12 +61,12 @@ pub fn of_precisions(points: &[Point], uncertainty: f64) -> Option<String> {
             named(&fixed.stepper),
             shown(fixed.step)
         ),
-        false => format!("; fixed gets no nearer, {} m", metres(reached)),
+        false => format!("; fixed is no more accurate, {} m", metres(reached)),
     };
     let ratio = over_single(points, FIXED)?;
     text += &format!(" at {} times the instructions of a step in f32", times(ratio));
     if let Some(ratio) = over_single(points, DOUBLE) {
-        text += &format!(", where f64 takes {} times", times(ratio));
+        text += &format!(", f64 costs {} times", times(ratio));
     }
     Some(text)
 }
@@ -95,14 +94,16 @@ mod tests {
         assert_eq!(
             of_precisions(&points, 1e-10).as_deref(),
             Some(
-                "in f32 nothing gets nearer than 3e-6 m here (pefrl, f32, step 100us); fixed reaches \
-                 2e-8 m (pefrl, fixed, step 10us) at 1.5 times the instructions of a step in f32, where f64 \
-                 takes 40 times"
+                "in f32 the smallest error here is 3e-6 m (pefrl, f32, step 100us); fixed reaches \
+                 2e-8 m (pefrl, fixed, step 10us) at 1.5 times the instructions of a step in f32, f64 costs 40 times"
             )
         );
-        // What cannot be used does not count.
+        // Unusable points do not count.
         points[3].advisable = false;
-        assert!(of_precisions(&points, 1e-10).is_some_and(|text| text.contains("gets no nearer")));
+        assert!(
+            of_precisions(&points, 1e-10)
+                .is_some_and(|text| text.contains("fixed is no more accurate"))
+        );
         points.retain(|point| point.stepper.precision != "fixed");
         assert_eq!(of_precisions(&points, 1e-10), None);
     }

@@ -1,8 +1,8 @@
-//! The survey: all points of a scene.
+//! The trade-off study: all points of a scene.
 //!
 //! `(scene, options, cache) => window, points`. Runs for accuracy are shared among the machine's
-//! threads, the longest first; their results do not depend on who took them. Times are measured
-//! after that, the ways in turn.
+//! threads, the longest first; their results do not depend on the thread. Times are measured after that, alternating
+//! between the methods.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -32,33 +32,33 @@ use crate::timing::{Cost, costs};
 use crate::variants::{Compared, compare, counted_as};
 use crate::ways::{Way, in_space, ways};
 
-/// A step's time is measured at this share of the explicit schemes' limit.
+/// A step's time is measured at this fraction of the explicit schemes' limit.
 const TIMED: f64 = 0.1;
 
-/// Force evaluations of the kernel that one of the references takes as long as.
+/// Cost of a reference's force evaluation, in evaluations of the kernel.
 const REFERENCE: u64 = 8;
 
 /// A survey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trade {
-    /// The window and the truth's uncertainty.
+    /// The window and the uncertainty of the reference solution.
     pub head: Head,
-    /// \[s\] the period that every step divides, where one was asked for.
+    /// \[s\] the requested period that every step divides.
     pub period: Option<f64>,
-    /// All points, way by way, steps descending.
+    /// All points by method, steps descending.
     pub points: Vec<Point>,
-    /// The scene and what it can be made into, where there is such a thing.
+    /// The scene and its variants, if any.
     pub variants: Vec<Compared>,
     /// Whether instructions on the target are estimates.
     pub estimated: bool,
 }
 
-/// What a survey is at.
+/// Phase of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// How long two truths from nearly one state stay near.
+    /// Determining the window.
     Window,
-    /// The truth.
+    /// Computing the reference solution.
     Truth,
     /// Its second opinion.
     Opinion,
@@ -79,13 +79,13 @@ pub enum SurveyError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Window(#[from] WindowError),
-    /// There is no truth to compare with.
+    /// There is no reference solution to compare with.
     #[error(transparent)]
     #[diagnostic(transparent)]
     NoTruth(#[from] NoTruth),
     /// Another survey of the same keeps its results in the folder.
-    #[error("another survey of this scene writes to {}", folder.display())]
-    #[diagnostic(help("wait until it is done, or name another folder with --out DIR"))]
+    #[error("another trade-off study of this scene is writing to {}", folder.display())]
+    #[diagnostic(help("wait until it completes, or give another folder with --out DIR"))]
     Busy {
         /// The folder.
         folder: PathBuf,
@@ -105,7 +105,7 @@ struct Job {
     in_space: Option<f64>,
 }
 
-/// Surveys a scene. `progress` hears what it is at.
+/// Runs the study of a scene. `progress` receives the current phase.
 ///
 /// # Errors
 /// [`SurveyError`].
@@ -136,7 +136,7 @@ pub fn survey(
     let grid = head.grid;
     let ways = ways(scene, head.in_space);
     let limits = Limits::of(scene);
-    // In space a planar mechanism may tip, too.
+    // In space a planar mechanism may leave its plane.
     let spatial = scene.planar.is_some().then(|| Limits::in_space(scene));
     let both = [(OWN, Some(&limits)), (IN_SPACE, spatial.as_ref())];
     find(&both, &ways, &mut cache, progress)?;
@@ -198,10 +198,10 @@ pub fn survey(
     Ok(Trade { head, period: options.period, points, variants, estimated })
 }
 
-/// Finds window and truth.
+/// Finds window and reference solution.
 ///
 /// # Errors
-/// Where the integrator gives up.
+/// If the integrator fails.
 pub(crate) fn look(
     scene: &Scene,
     key: u64,
@@ -256,7 +256,7 @@ fn find(
     )
 }
 
-/// Limits of a model of the scene, and what stands before the labels under which they are kept.
+/// Limits of a model of the scene, and the prefix of their labels.
 type Whose<'l> = (&'static str, Option<&'l Limits>);
 
 /// Of the model that steps.
@@ -265,12 +265,12 @@ const OWN: &str = "";
 /// Of a planar scene in space.
 const IN_SPACE: &str = "in space, ";
 
-/// What a method's limit is kept under.
+/// Label of a method's limit.
 fn label(whose: &str, method: &Method) -> String {
     format!("{whose}{}", Way::Kernel(*method).stepper().label())
 }
 
-/// How long a step of a way may be, from what was found.
+/// Step limits of a method from the found ones.
 fn limit((whose, limits): Whose<'_>, way: &Way, cache: &Cache) -> Option<Limit> {
     let limits = limits?;
     let decisive = limits.decisive(way);

@@ -1,10 +1,10 @@
-//! What a step of each way costs this host.
+//! Time of a step of each method on this host.
 //!
-//! `(scene, ways, step) => seconds per step: least, median, spread`, on one thread while nothing else
-//! of this program runs. The ways take turns, round by round, so that other work on the machine meets
-//! all of them alike; what scatters is measured again. Time is the thread's own where the system
-//! counts it: what other programs run meanwhile is not in it. Counts of instructions would be without
-//! noise, but say nothing of what they cost: single and double precision take as many, not as long.
+//! `(scene, methods, step) => seconds per step: minimum, median, spread`, on one thread while nothing else of this
+//! program runs. The methods alternate in rounds, so that other work on the machine affects all of them equally;
+//! scattered measurements are repeated. Times are thread times if the system provides them, which exclude other
+//! programs. Instruction counts would be free of noise, but do not measure time: single and double precision have equal
+//! counts and different times.
 
 use std::hint::black_box;
 
@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use crate::measure::implicit_step;
 use crate::ways::Way;
 
-/// What a step takes on this host.
+/// Time of a step on this host.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
     /// \[s\] the least of all measurements: other work can only lengthen them.
@@ -43,11 +43,11 @@ const BATCH: f64 = 5e-4;
 
 pub use clock::elapsed;
 
-/// Takes so many steps of a way.
+/// Runs the given number of steps of a method.
 type Take<'t> = Box<dyn FnMut(u64) + 't>;
 
-/// Measures a step of the size `step` \[s\] of all ways, from t = 0 of the scene on. `progress` hears of
-/// rounds done and rounds to do.
+/// Measures a step of the size `step` \[s\] of all methods, from t = 0 of the scene on. `progress` receives the rounds
+/// done and to do.
 #[must_use]
 pub fn costs(
     scene: &Scene,
@@ -70,7 +70,7 @@ pub fn costs(
     })
 }
 
-/// What steps a way; `None` where it cannot be.
+/// Stepping function of a method; `None` if unsupported.
 fn taker<'t>(scene: &Scene, mechanism: &'t Mechanism, way: &Way, step: f64) -> Option<Take<'t>> {
     let start = || Mechanism::of(scene).1;
     Some(match way {
@@ -103,8 +103,7 @@ fn taker<'t>(scene: &Scene, mechanism: &'t Mechanism, way: &Way, step: f64) -> O
     })
 }
 
-/// Takes so many steps in one call into the plant. One that has failed steps no more: it begins
-/// again.
+/// Runs the given number of steps in one call of the plant, which is reset after a failure.
 fn take(plant: &mut dyn AnyPlant, mut steps: u64) {
     loop {
         let before = plant.steps();
@@ -116,7 +115,7 @@ fn take(plant: &mut dyn AnyPlant, mut steps: u64) {
     }
 }
 
-/// Warms caches and finds how many steps a measurement takes.
+/// Warms caches and determines the number of steps per measurement.
 fn batch_of(take: &mut Take<'_>) -> u64 {
     let mut steps = 1;
     loop {
@@ -128,7 +127,7 @@ fn batch_of(take: &mut Take<'_>) -> u64 {
     }
 }
 
-/// Measures so many in turn, each once in a round; those that scatter again, in turn likewise.
+/// Measures all methods in rounds; repeats scattered ones in the same way.
 fn rounds(
     count: usize,
     progress: &mut dyn FnMut(u64, u64),
@@ -168,7 +167,7 @@ fn cost_of(times: &mut [f64]) -> Cost {
     let count = times.len();
     let median = times[count / 2];
     let spread = 0.5 * (times[3 * count / 4] - times[count / 4]) / median;
-    // Of what cannot be stepped nothing scatters.
+    // Unsupported methods do not scatter.
     Cost { least: times[0], median, spread: if spread.is_finite() { spread } else { 0.0 } }
 }
 
@@ -183,7 +182,7 @@ mod clock {
         now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
     }
 
-    /// \[s\] that a function takes, without what else runs meanwhile.
+    /// \[s\] thread time of a function.
     pub fn elapsed(work: impl FnOnce()) -> f64 {
         let start = now();
         work();
@@ -196,7 +195,7 @@ mod clock {
 mod clock {
     use std::time::Instant;
 
-    /// \[s\] that a function takes, whatever else runs meanwhile.
+    /// \[s\] elapsed time of a function.
     pub fn elapsed(work: impl FnOnce()) -> f64 {
         let start = Instant::now();
         work();

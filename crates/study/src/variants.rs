@@ -1,10 +1,9 @@
-//! A scene made otherwise: the same mechanism as another model, and how much its motion differs.
+//! Variants of a scene: other models of the same mechanism, and the difference of their motion.
 //!
-//! `scene => variants; (scene, variant, grid) => difference, steps, cost`. A variant is a change of the scene's text
-//! that is read anew; a further one is an entry of the list below. Both run in double precision far
-//! below the largest stable step, so that what differs is the model; the spiders of universal joints that
-//! only one of them has do not count. The largest stable step is that of the model that steps: of a planar
-//! one in its plane.
+//! `scene => variants; (scene, variant, grid) => difference, steps, cost`. A variant is a change of the scene's text;
+//! add one to the list below. Both run in double precision far below the largest stable step, so that only the model
+//! differs; spiders of universal joints are ignored if only one model has them. The largest stable step is that of the
+//! stepped model: for a planar one in its plane.
 
 use crate::reference::metric::Metric;
 use crate::reference::{Mechanism, State};
@@ -19,7 +18,7 @@ use crate::stability::MARGIN;
 use crate::timing::costs;
 use crate::ways::Way;
 
-/// What a scene can be made into: a name, and the changes that do it.
+/// Variants: name and changes.
 const KINDS: &[(&str, &[&str])] = &[
     ("bushing", &["realisation=bushing"]),
     ("planar", &["planar=true"]),
@@ -28,13 +27,13 @@ const KINDS: &[(&str, &[&str])] = &[
     ("spatial-bushing", &["planar=false", "realisation=bushing"]),
 ];
 
-/// What a scene is called beside its variants.
+/// Name of the unchanged scene among its variants.
 pub const AS_IT_IS: &str = "as it is";
 
-/// What the model of a planar scene in space is called.
+/// Name of the spatial model of a planar scene.
 pub const SPATIAL: &str = "spatial";
 
-/// What the scene with joints of twice the stiffness is called.
+/// Name of the scene with joints of twice the stiffness.
 pub const STIFFER: &str = "twice-as-stiff";
 
 /// The part of the largest stable step of leapfrog at which motions are compared.
@@ -43,7 +42,7 @@ const FINE: f64 = 0.1;
 /// A scene made otherwise.
 #[derive(Clone, Debug)]
 pub struct Variant {
-    /// What people call it: `bushing`.
+    /// Its name: `bushing`.
     pub name: &'static str,
     /// The scene.
     pub scene: Scene,
@@ -54,7 +53,7 @@ pub struct Variant {
 pub struct Compared {
     /// [`AS_IT_IS`], or the variant's name.
     pub name: String,
-    /// Whether three freedoms per body step, in a plane.
+    /// Whether it is planar, with three degrees of freedom per body.
     pub planar: bool,
     /// Bodies.
     pub bodies: usize,
@@ -93,8 +92,8 @@ fn steps_alike(one: &Scene, other: &Scene) -> bool {
     one.planar.is_some() == other.planar.is_some() && one.stepped() == other.stepped()
 }
 
-/// What the table of costs calls a scene of a name that it counts: the name, or that with a variant's behind
-/// it; `None` where the scene is neither `shipped`, the scene of that name, nor a variant of it.
+/// Name of a scene in the table of costs: its name, with a variant's name as suffix; `None` if the scene is neither
+/// `shipped`, the scene of that name, nor a variant of it.
 #[must_use]
 pub fn counted_as(shipped: &Scene, scene: &Scene) -> Option<String> {
     if steps_alike(shipped, scene) {
@@ -105,8 +104,8 @@ pub fn counted_as(shipped: &Scene, scene: &Scene) -> Option<String> {
     found.map(|variant| format!("{}-{}", shipped.name, variant.name))
 }
 
-/// A scene beside its variants, itself first, and beside its joints twice as stiff last; nothing where it has neither
-/// variants nor joints. `called` says what the table of costs calls a scene.
+/// A scene and its variants, itself first, with joints twice as stiff last; empty without variants and joints. `called`
+/// returns a scene's name in the table of costs.
 #[must_use]
 pub fn compare(
     scene: &Scene,
@@ -183,7 +182,7 @@ fn limit(scene: &Scene) -> Limit {
 
 /// The states of a scene at a grid's times, t = 0 first; `None` where a run fails.
 fn motion(scene: &Scene, limit: Limit, grid: &Grid) -> Option<Vec<State>> {
-    // What leapfrog bears it bears, too, and is far more accurate.
+    // It is stable at leapfrog's steps and far more accurate.
     let method = Method::new(SchemeName::Pefrl, None, PrecisionName::F64).ok()?;
     let steps = grid.steps(FINE * limit.advised.min(scene.duration) / (1.0 - MARGIN));
     let mut plant = plant(scene, &method, grid.step(steps)).ok()?;
@@ -197,7 +196,7 @@ fn motion(scene: &Scene, limit: Limit, grid: &Grid) -> Option<Vec<State>> {
     Some(states)
 }
 
-/// \[m\] how far the bodies that both have are apart.
+/// \[m\] distance of the common bodies.
 #[must_use]
 pub fn distance((scene, own): (&Scene, &[State]), (other, states): (&Scene, &[State])) -> f64 {
     let place = |name: &String| other.body_names.iter().position(|known| known == name);
@@ -261,7 +260,7 @@ mod tests {
         // √2 times as fast.
         let [slow, fast] = [own, stiffer].map(|one| one.stable_step.unwrap());
         assert!((slow / fast - 2_f64.sqrt()).abs() < 0.05, "{slow} {fast}");
-        // What is of bushings already has no other make.
+        // Scenes already built from bushings have no variant.
         assert!(variants(&found[0].scene).is_empty());
     }
 
@@ -304,7 +303,7 @@ mod tests {
         let names = |scene: &Scene| variants(scene).iter().map(|one| one.name).collect::<Vec<_>>();
         assert_eq!(names(&scene), ["bushing", "planar", "planar-bushing"]);
         let planar = scene.with("planar=true").unwrap();
-        // In the plane first: what is not changed stays as it is.
+        // Planar first: unchanged parts stay as they are.
         assert_eq!(names(&planar), ["bushing", "spatial", "spatial-bushing"]);
         let called = |scene: &Scene| counted_as(&Scene::parse(BARS, "b.toml").unwrap(), scene);
         assert_eq!(called(&scene).as_deref(), Some("bars"));
@@ -319,14 +318,14 @@ mod tests {
         assert_eq!(elements(&there), [12, 2, 4, 2, 12]);
         assert_eq!(elements(&back), [4, 2, 12, 2, 12]);
         assert!(there[2].planar && !there[0].planar && back[0].planar && !back[2].planar);
-        // The same two models, whichever of them is asked for.
+        // The same two models in either order.
         assert_eq!(
             [there[0].stable_step, there[2].stable_step],
             [back[2].stable_step, back[0].stable_step]
         );
         let [one, other] = [there[2].difference, back[2].difference].map(Option::unwrap);
         assert!(one > 0.0 && one < 1e-3 && (one / other - 1.0).abs() < 1e-9, "{one:e} {other:e}");
-        // What joints give way by falls with their stiffness.
+        // The deflection of joints falls with their stiffness.
         let depends = |stiffness: &str| {
             let scene = scene.with(&format!("joint.*.stiffness={stiffness}")).unwrap();
             compare(&scene, &grid, &Costs::none(), &|_| None).pop().unwrap()
@@ -334,7 +333,7 @@ mod tests {
         let [soft, stiff] = ["1e4", "1e6"].map(|stiffness| depends(stiffness).difference.unwrap());
         assert_eq!(depends("1e4").name, STIFFER);
         assert!(stiff > 0.0 && stiff < 0.1 * soft, "{soft:e} {stiff:e}");
-        // What tips out of the plane is faster than all in it.
+        // Vibration out of the plane is faster than all in it.
         assert!(there[2].stable_step > there[0].stable_step, "{there:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! A scene beside its variants as a table.
+//! A scene and its variants as a table.
 //!
 //! `compared => lines of text, rows of a page`.
 
@@ -7,7 +7,7 @@ use dbd_plant::digits::significant;
 use crate::variants::{AS_IT_IS, Compared};
 use crate::words::{shown, times};
 
-/// The columns, each with what stands beneath: its unit.
+/// The columns with their units.
 pub const HEADINGS: [(&str, &str); 9] = [
     ("model", ""),
     ("bodies", ""),
@@ -20,38 +20,39 @@ pub const HEADINGS: [(&str, &str); 9] = [
     ("Cortex-M4F", "instr/step"),
 ];
 
-/// What the table is of.
+/// Title of the table.
 pub const TITLE: &str = "other models of the mechanism";
 
-/// What its figures are.
-const FIGURES: &str = "the difference is root mean square over the bodies that both have and all samples; steps \
-     are of leapfrog: the largest stable one about the pose at t = 0 of the model in its row, and the advised \
-     one, at which a second is simulated so many times as fast";
+/// Explanation of the figures.
+const FIGURES: &str = "the difference is the root mean square over common bodies and all samples; \
+                       steps are for leapfrog: the largest stable one about the pose at t = 0 of the \
+                       model in that row, and the advised one, which gives the speed-up";
 
-/// What a make is, and how to run it: by a part of its name.
+/// Explanation of a variant and its option, by a part of its name.
 const MAKES: [(&str, &str); 4] = [
     (
         "bushing",
-        "bushing: joints of bushings in place of TSDAs, as stiff at t = 0, no universal joint has a spider; run it \
-         with --set realisation=bushing",
+        "bushing: joints built from bushings instead of TSDAs, equally stiff at t = 0, universal \
+         joints without a spider; run it with --set realisation=bushing",
     ),
     (
         "planar",
-        "planar: three freedoms per body, in the plane; what is stable there may yet tip out of it in space, \
-         where the stable step is that of the spatial model; run it with --planar",
+        "planar: three degrees of freedom per body, in the plane; a step that is stable there may be \
+         unstable out of the plane in space, where the stable step is that of the spatial model; run \
+         it with --planar",
     ),
     (
         "spatial",
-        "spatial: six freedoms per body, of which the plane has three; run it with --set planar=false",
+        "spatial: six degrees of freedom per body, three of them in the plane; run it with --set planar=false",
     ),
     (
         "stiff",
-        "twice-as-stiff: every joint has twice its stiffness, in space; by so much the motion still depends on a \
-         stiffness that stands for a rigid joint",
+        "twice-as-stiff: every joint has twice its stiffness, in space; the difference shows how much \
+         the motion depends on the stiffness that approximates a rigid joint",
     ),
 ];
 
-/// What the table says, a sentence each.
+/// Explanations of the table, one sentence each.
 #[must_use]
 pub fn meaning(compared: &[Compared]) -> Vec<&'static str> {
     let made = |make: &str| compared.iter().any(|one| one.name.split('-').any(|part| part == make));

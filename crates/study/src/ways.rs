@@ -1,7 +1,7 @@
-//! All ways of stepping a scene, and the steps that each is tried with.
+//! All methods for a scene, and the steps tried with each.
 //!
-//! `scene => ways; way, frequency bound, interval => steps per interval`. A further scheme,
-//! precision or orientation of [`dbd_plant::method`] joins by itself.
+//! `scene => methods; method, frequency bound, interval => steps per interval`. New schemes, precisions and
+//! orientations of [`dbd_plant::method`] are included automatically.
 
 use crate::reference::State;
 use dbd_plant::plant::{check_extents, check_inputs};
@@ -11,7 +11,7 @@ use dbd_scene::Scene;
 use crate::grid::Grid;
 use crate::point::{Machine, Stepper, is_paper};
 
-/// A way of stepping.
+/// A method: of the kernel, or a reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Way {
     /// The kernel.
@@ -24,23 +24,23 @@ pub enum Way {
     LinearlyImplicitEuler,
 }
 
-/// Steps as shares of the largest stable one: the first is beyond, the second within what is left
-/// as a margin, the third is the largest to advise.
+/// Steps as fractions of the largest stable one: the first is beyond it, the second within the margin, the third is the
+/// largest advised one.
 const SHARES: [f64; 12] = [1.3, 0.98, 0.8, 0.6, 0.4, 0.28, 0.2, 0.14, 0.1, 0.05, 0.025, 0.0125];
 
 /// The paper's scheme is carried on to these, for all others are compared with it.
 const PAPER_SHARES: [f64; 4] = [0.005, 0.002, 0.001, 0.0005];
 
-/// Of those, what takes more force evaluations × bodies over the window is left out: 10 s each.
+/// Maximum force evaluations × bodies over the window: 10 s each.
 const AFFORDABLE: f64 = 1e8;
 
-/// The references take fewer: they are slow, and there to compare.
+/// Maximum for the references, which are slow and for comparison only.
 const REFERENCE_SHARES: [f64; 6] = [1.3, 0.8, 0.4, 0.2, 0.1, 0.025];
 
-/// A solver without limit is tried from this many times a step that an explicit one bears.
+/// An unconditionally stable solver starts at this multiple of an explicit scheme's stable step.
 const IMPLICIT: f64 = 64.0;
 
-/// \[rad/s\], as a share of the largest: rates about a second axis below this do not count.
+/// Fraction of the largest angular velocity below which rates about a second axis do not count.
 const SPATIAL: f64 = 1e-6;
 
 impl Way {
@@ -85,7 +85,7 @@ impl Way {
         }
     }
 
-    /// Largest stable `ω_max·h` of an undamped oscillator; infinite where there is none.
+    /// Largest stable `ω_max·h` of an undamped oscillator; infinite without a limit.
     #[must_use]
     pub fn stability_limit(&self) -> f64 {
         match self {
@@ -95,8 +95,8 @@ impl Way {
         }
     }
 
-    /// Steps per interval to try, ascending, no two alike, for so many bodies whose highest
-    /// frequency is `highest` \[rad/s\]; `largest` \[s\] is where an explicit way's ladder begins.
+    /// Steps per interval to try, strictly ascending, for the given number of bodies with the highest frequency
+    /// `highest` \[rad/s\]; an explicit method's ladder starts at `largest` \[s\].
     #[must_use]
     pub fn ladder(&self, highest: f64, largest: f64, grid: &Grid, bodies: usize) -> Vec<u64> {
         let shares =
@@ -118,10 +118,9 @@ impl Way {
     }
 }
 
-/// All ways of stepping a scene. The paper's scheme also with a Newton iteration, Euler angles
-/// where bodies turn in space, joint-wise and explicit damping where there are dampers and the scheme has them
-/// beside sweeps. What is there for comparison only where this build holds it, no precision that cannot hold
-/// the scene.
+/// All methods for a scene. The paper's scheme also with a Newton iteration, Euler angles if bodies rotate in space,
+/// joint-wise and explicit damping if there are dampers and the scheme supports them. Methods for comparison only if
+/// this build includes them; no precision that cannot represent the scene.
 #[must_use]
 pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
     let mut ways = Vec::new();
@@ -134,7 +133,7 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
         for scheme in SchemeName::ALL {
             let Ok(method) = Method::new(*scheme, None, *precision) else { continue };
             if *precision == PrecisionName::F32Micromath {
-                // One scheme shows what its square root costs.
+                // One scheme suffices to show the effect of its square root.
                 if *scheme == SchemeName::Leapfrog {
                     add(method);
                 }
@@ -165,14 +164,14 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
     ways
 }
 
-/// Whether this build holds a method, and its precision the scene at rest.
+/// Whether this build includes a method, and its precision represents the scene at rest.
 fn holds(scene: &Scene, method: &Method) -> bool {
     method.check_built().is_ok()
         && check_inputs(scene, method).is_ok()
         && check_extents(scene, method, 0.0).is_ok()
 }
 
-/// Whether a body turns about more than one of its axes.
+/// Whether a body rotates about more than one of its axes.
 #[must_use]
 pub fn in_space(truth: &[State]) -> bool {
     truth.iter().flat_map(|state| &state.bodies).any(|body| {

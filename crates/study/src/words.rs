@@ -31,13 +31,13 @@ pub fn named(stepper: &Stepper) -> String {
     text
 }
 
-/// A ratio as people say it: two digits.
+/// A ratio with two digits.
 #[must_use]
 pub fn times(ratio: f64) -> String {
     significant(rounded(ratio, 2), 2)
 }
 
-/// A share as people say it.
+/// A fraction in per cent.
 #[must_use]
 pub fn percent(share: f64) -> String {
     format!("{} %", significant(100.0 * share, 2))

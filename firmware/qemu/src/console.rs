@@ -51,7 +51,7 @@ mod target {
     use semihosting::fs;
     use semihosting::io::Read as _;
 
-    /// The argument at a position, counted from 0; `None` where there is none of this kind.
+    /// The argument at a position, counted from 0; `None` if it is missing or of another kind.
     #[must_use]
     pub fn argument<T: FromStr>(position: usize) -> Option<T> {
         // The first is the name of the image.
@@ -69,7 +69,7 @@ mod target {
         fs::write(path, bytes).is_ok()
     }
 
-    /// Reads a file; `None` where there is none or it does not fit.
+    /// Reads a file; `None` if it is missing or does not fit.
     pub fn load<'b>(path: &CStr, buffer: &'b mut [u8]) -> Option<&'b [u8]> {
         let mut file = fs::File::open(path).ok()?;
         let mut filled = 0;
@@ -95,7 +95,7 @@ mod host {
     use core::ffi::CStr;
     use core::str::FromStr;
 
-    /// The argument at a position, counted from 0; `None` where there is none of this kind.
+    /// The argument at a position, counted from 0; `None` if it is missing or of another kind.
     #[must_use]
     pub fn argument<T: FromStr>(position: usize) -> Option<T> {
         std::env::args().nth(position + 1)?.parse().ok()
@@ -106,7 +106,7 @@ mod host {
         path.to_str().is_ok_and(|path| std::fs::write(path, bytes).is_ok())
     }
 
-    /// Reads a file; `None` where there is none or it does not fit.
+    /// Reads a file; `None` if it is missing or does not fit.
     pub fn load<'b>(path: &CStr, buffer: &'b mut [u8]) -> Option<&'b [u8]> {
         let bytes = std::fs::read(path.to_str().ok()?).ok()?;
         let buffer = buffer.get_mut(..bytes.len())?;

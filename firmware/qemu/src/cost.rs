@@ -1,4 +1,4 @@
-//! What a step of models with their schemes costs in instructions and memory.
+//! Instructions and memory of a step of models with their schemes.
 //!
 //! `(pairs, SysTick) => lines "cost SCENE SCHEMEVARIANT PRECISION STEP MEAN MAX PLANT MODEL STACK"`:
 //! step \[ns\], instructions per step, bytes of the plant (state and scratch), of the const model
@@ -57,13 +57,13 @@ pub fn run_solved(systick: &mut SysTick) -> bool {
     run(systick, |costing| crate::chart::for_each_solved(costing))
 }
 
-/// Counts and prints what it is shown.
+/// Counts and prints each visited model.
 pub struct Costing<'t> {
     systick: &'t mut SysTick,
     well: bool,
 }
 
-/// What is counted, and whether it went well.
+/// The counts, and whether the steps succeeded.
 type Call<T> = fn(&mut T) -> bool;
 
 /// Ticks of one call, and whether it went well.

@@ -1,4 +1,4 @@
-//! What guards cost beside the step that they guard.
+//! The cost of guards relative to the guarded step.
 //!
 //! `(pairs, SysTick) => lines "guard SCENE SCHEMEVARIANT PRECISION STEP FAULT LOOK MOST ENERGY"`, all in
 //! instructions: a step with its guards; the guards of every step alone; a look of the watch at one
@@ -26,13 +26,13 @@ pub fn run(systick: &mut SysTick, show: impl FnOnce(&mut Guarding<'_>)) -> bool 
     guarding.well
 }
 
-/// Counts and prints what it is shown.
+/// Counts and prints each visited model.
 pub struct Guarding<'t> {
     systick: &'t mut SysTick,
     well: bool,
 }
 
-/// A plant and what looks at it.
+/// A plant and its watch.
 struct Guarded<M: ModelOwner + 'static, S: Scheme> {
     plant: Plant<&'static M, S>,
     watch: Watch<RealOf<M>>,

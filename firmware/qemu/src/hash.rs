@@ -48,7 +48,7 @@ impl FromStr for Which {
     }
 }
 
-/// Instructions executed since the program began; 0 for ever where nobody counts.
+/// Instructions executed since the program began; always 0 without a counter.
 pub trait InstructionCounter {
     /// Asked at least once per step.
     fn count(&mut self) -> u64;

@@ -3,7 +3,7 @@
 //! `whole: models => lines; begin: models => files; end: files => lines`. The files are
 //! `out/relay-0` and so on, one per model, in the order of
 //! [`for_each_relayed`]. The line `relay SCENE SCHEME PRECISION
-//! STEPS HASH` must be the same, whoever took which half.
+//! STEPS HASH` must be the same for any assignment of the halves.
 
 use core::ffi::CStr;
 
@@ -15,7 +15,7 @@ use crate::console::{load, save};
 use crate::models::{Shipped, Visitor, for_each_relayed};
 use crate::say;
 
-/// What of the runs is done here.
+/// The part of the runs that is done here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// All of them.
@@ -69,14 +69,14 @@ impl Relay {
         let mut buffer = [0; LARGEST];
         let mut plant = Plant::new(model, scheme, step).map_err(|_| "its step")?;
         if self.part != Part::End {
-            // What a caller holds travels with the state; a model without such an input refuses.
+            // Held inputs are part of the state; a model without such an input returns an error.
             let _ = plant.set_input(CALLERS, HELD);
         }
         if self.part == Part::End {
             let bytes = load(path, &mut buffer).ok_or("no snapshot")?;
-            plant.restore(bytes).map_err(|_| "a snapshot that does not fit")?;
+            plant.restore(bytes).map_err(|_| "snapshot of another model")?;
             if plant.state().step != steps / 2 {
-                return Err("a snapshot of another time");
+                return Err("snapshot of another time");
             }
         }
         let until = if self.part == Part::Begin { steps / 2 } else { steps };
@@ -84,7 +84,7 @@ impl Relay {
             return Err("it diverged");
         }
         if self.part == Part::Begin {
-            let size = plant.snapshot(&mut buffer).map_err(|_| "a snapshot too large")?;
+            let size = plant.snapshot(&mut buffer).map_err(|_| "snapshot too large")?;
             return if save(path, &buffer[..size]) { Ok(()) } else { Err("no file") };
         }
         let (precision, hash) = (M::Precision::NAME, plant.hash());

@@ -1,4 +1,4 @@
-//! The pairs of model and scheme whose costs are looked at before a change is kept.
+//! The pairs of model and scheme whose costs every test checks.
 //!
 //! `(models, schemes) => visitor`: every scheme, both precisions, with and without dampers, and
 //! every kind of element at least once. As in [`chart`](crate::chart), each model is one [`Alone`]

@@ -1,7 +1,7 @@
 //! Sensors and motors on a fixed script, as hashes: the same bits on a PC and on the chip.
 //!
 //! `() => lines "sensors STREAM HASH"`. Each hash is FNV-1a over what a part gives in a thousand steps of a
-//! rotor, whose angle is known; [`GOLDEN`] holds them, and a machine that finds others says so. A changed
+//! rotor, whose angle is known; [`GOLDEN`] contains them, and a difference is reported. A changed
 //! bit is a changed interface: it needs a reason, as those of the plants do.
 
 use dbd_kernel::geometry::{Float, Named};

@@ -1,4 +1,4 @@
-//! What stands between the shipped plants and their controllers' drivers: motors and encoders.
+//! The motors and encoders between the shipped plants and their controllers' drivers.
 //!
 //! `() => parts of a node`. Cart and pendulum have the motor of the Quanser IP02 (User Manual 2002, table
 //! 4: 2.6 Ω, 7.67 mN·m/A, planetary gear 3.71, pinion of 6.35 mm, encoder pinion of 14.83 mm) at
@@ -36,7 +36,7 @@ const GEAR: f64 = 20.0;
 /// An encoder with its chip, on time.
 pub type Chip = As5047p<Encoder<F32>>;
 
-/// A chip that samples every so many steps: once per tick of its controller.
+/// A chip that samples at a fixed number of steps: once per tick of its controller.
 fn chip(probe: Probe<F32>, turn: f64, noise: f64, every: u32) -> Chip {
     let errors = Errors { noise, seed: SEED, ..Errors::NONE };
     As5047p::new(Encoder::new(probe, EncoderParameters { counts: COUNTS, turn, every, errors }))

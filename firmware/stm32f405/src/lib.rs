@@ -8,9 +8,9 @@
 //! Each uses only those before it:
 //!
 //! - [`board`]: clock, console and timer.
-//! - [`panic`]: what panicked.
+//! - [`panic`]: the panic handler.
 //! - [`models`]: the scenes' models.
-//! - [`runs`]: what every program runs.
+//! - [`runs`]: the runs of every program.
 #![no_std]
 
 pub mod board;

@@ -1,4 +1,4 @@
-//! What panicked, and where, over the console; then the program stands still.
+//! Prints the panic message and location to the console, then halts.
 
 use core::fmt::{self, Write as _};
 use core::panic::PanicInfo;

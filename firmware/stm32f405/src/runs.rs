@@ -1,4 +1,4 @@
-//! What every program runs: a plant at a fixed rate, and how it went.
+//! The runs of every program: a plant at a fixed rate, with a report.
 //!
 //! `(model, steps per tick, steps) => tick by tick => report "hash …", "pace …"`. A tick whose steps are not done when
 //! the next one comes is an overrun: it is counted, the next steps follow at once, and the bits are the same.

@@ -22,21 +22,21 @@ pub(super) struct AdviseArguments {
     /// Class of the microcontroller: cortex-m0plus, cortex-m4f, cortex-m7, cortex-m7-double, cortex-m33
     #[arg(long, value_name = "NAME", default_value = "cortex-m4f")]
     mcu: String,
-    /// Its clock, e.g. 168MHz [default: a usual one of the class]
+    /// Clock frequency, e.g. 168MHz [default: typical of the class]
     #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true)]
     clock: Option<String>,
-    /// Rate of the controller, e.g. 1kHz: a whole number of steps makes its period
+    /// Controller rate, e.g. 1kHz; its period is a whole number of steps
     #[arg(long, value_name = "FREQUENCY", allow_hyphen_values = true)]
     rate: Option<String>,
-    /// How far off the motion may be, e.g. 0.1mm, root mean square over bodies and time [default: 1 % of how
-    /// far the bodies go]
+    /// Largest error of the motion, e.g. 0.1mm, root mean square over bodies and time [default: 1 % of the
+    /// bodies' displacement]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     accuracy: Option<String>,
-    /// Longest window of comparison, e.g. 0.2s; it ends before chaos takes over [default: 0.5s or
+    /// Longest comparison window, e.g. 0.2s; it ends before the motion becomes chaotic [default: 0.5s or
     /// the scene's duration]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     window: Option<Time>,
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }
@@ -66,11 +66,11 @@ pub(super) fn advise_scene(
     let bars = console.terminal;
     let mut progress = Progress::of(bars, "evaluations", &mut *console.err as &mut dyn Write);
     let found = recommend(&scene, &request, &mut |phase| match phase {
-        Phase::Window => progress.begin("how long before chaos"),
-        Phase::Truth => progress.begin("the truth"),
-        Phase::Opinion => progress.begin("the truth, a second opinion"),
-        Phase::Limits => progress.begin("ways of stepping, the cheapest first"),
-        Phase::Variants => progress.begin("changes of the scene"),
+        Phase::Window => progress.begin("time until chaotic motion"),
+        Phase::Truth => progress.begin("reference solution"),
+        Phase::Opinion => progress.begin("second reference solution"),
+        Phase::Limits => progress.begin("methods, cheapest first"),
+        Phase::Variants => progress.begin("scene variants"),
         Phase::Runs(..) | Phase::Times(..) => {}
     });
     progress.finish();

@@ -18,47 +18,47 @@ use crate::error::Error;
 use crate::terminal::text::json;
 use crate::terminal::{Catalogue, Console, Exit, Found};
 
-/// Empties a terminal's screen and begins at its top.
+/// Clears the terminal and moves the cursor to its top.
 const CLEAR: &str = "\u{1b}[2J\u{1b}[H";
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArguments {
     #[command(flatten)]
     pub(super) scene: SceneArgument,
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Write a picture of the mechanism at its initial pose, an SVG; - for standard output, in place
+    /// Write an SVG picture of the mechanism at its initial pose; - for standard output, instead
     /// of the table
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     svg: Option<PathBuf>,
-    /// Write the scene in its long form: poses at which the joints are closed, all numbers in SI; - for
-    /// standard output, in place of the table
+    /// Write the scene in its long form: poses with closed joints, all numbers in SI; - for
+    /// standard output, instead of the table
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     write: Option<PathBuf>,
-    /// Replace the file where there is one
+    /// Overwrite an existing file
     #[arg(long, requires = "write")]
     overwrite: bool,
-    /// Check again each time the file is saved, with --svg and --write, until Ctrl-C
+    /// Check again at each save of the file, --svg and --write included, until Ctrl-C
     #[arg(long)]
     watch: bool,
-    /// Look for the largest stable step about the pose at t = 0; takes seconds
+    /// Find the largest stable step about the pose at t = 0; takes seconds
     #[arg(long)]
     stability: bool,
-    /// Its time-stepping scheme
+    /// Time-stepping scheme for --stability
     #[arg(long, value_parser = names::<SchemeName>(), default_value = SchemeName::default().name(), requires = "stability")]
     scheme: SchemeName,
-    /// Its Newton iterations per step, at most 8 [default: 0]
+    /// Newton iterations per step for --stability, at most 8 [default: 0]
     #[arg(long, value_name = "N", requires = "stability")]
     newton: Option<u32>,
-    /// What is left per step of a vibration that it does not resolve, of generalized-alpha: 0 to 0.8
-    /// [default: 0.5]
+    /// Spectral radius of generalized-alpha at infinite frequency, 0 to 0.8: the fraction of an unresolved
+    /// vibration that remains per step [default: 0.5]
     #[arg(long, value_name = "RHO", allow_hyphen_values = true, requires = "stability")]
     rho: Option<f64>,
-    /// How its dampers act [default: the scheme's own]
+    /// Damping method for --stability [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>(), requires = "stability")]
     damping: Option<DampingName>,
-    /// Its precision
+    /// Precision for --stability
     #[arg(long, value_parser = names::<PrecisionName>(), default_value = PrecisionName::default().name(), requires = "stability")]
     precision: PrecisionName,
 }
@@ -88,7 +88,7 @@ pub(super) fn check_scene(
     once(catalogue, arguments, &method, arguments.overwrite, console).map(|_| Exit::Done)
 }
 
-/// Checks once; says whether anyone reads what is printed.
+/// Checks once; returns whether the output still has a reader.
 fn once(
     catalogue: &Catalogue,
     arguments: &CheckArguments,
@@ -122,7 +122,7 @@ fn once(
     Ok(console.print_to_reader(&text)?)
 }
 
-/// Checks now and at each change, until nobody reads it any more or the program is told to end.
+/// Checks now and at each change, until the output has no reader or the program is interrupted.
 fn watch_scene(
     catalogue: &Catalogue,
     arguments: &CheckArguments,
@@ -131,7 +131,7 @@ fn watch_scene(
 ) -> Result<Exit, Error> {
     let called = &arguments.scene.scene;
     let Some(file) = catalogue.file(called) else {
-        // What is nothing at all is refused as everywhere.
+        // An unknown name is reported as in every command.
         if called != "-" {
             load(catalogue, &arguments.scene)?;
         }
@@ -149,7 +149,7 @@ fn watch_scene(
     }
     let on_screen = console.terminal && std::io::stdout().is_terminal();
     let mut watched = Watched::new(&file);
-    // What it has written itself it may replace.
+    // The command may replace its own earlier output.
     let mut overwrite = arguments.overwrite;
     for number in 1_u64.. {
         watched.wait();

@@ -25,33 +25,33 @@ use crate::terminal::{Catalogue, Console, Exit};
 pub(super) struct HilArguments {
     #[command(flatten)]
     pub(super) scene: SceneArgument,
-    /// The line to the other end: unix:PATH, unix-listen:PATH, tcp:HOST:PORT, tcp-listen:HOST:PORT,
+    /// Connection to the peer: unix:PATH, unix-listen:PATH, tcp:HOST:PORT, tcp-listen:HOST:PORT,
     /// /dev/tty…[@BAUD] or COM3[@BAUD]
     #[arg(long, value_name = "PORT")]
     port: Address,
-    /// Be the plant, for a controller at the other end
+    /// Simulate the plant for a controller at the other end
     #[arg(long)]
     serve: bool,
-    /// What sets the inputs: zero, noise[:AMPLITUDE[:SEED]], or a command that answers each line of sensor values on
+    /// Source of the inputs: zero, noise[:AMPLITUDE[:SEED]], or a command that answers each line of sensor values on
     /// its standard input with a line of input values
     #[arg(long, value_name = "COMMAND", default_value = "zero", conflicts_with = "serve")]
     controller: String,
-    /// How lines to and from the controller are written
+    /// Format of the lines to and from the controller
     #[arg(long, value_enum, default_value_t = Lines::Csv, conflicts_with = "serve")]
     lines: Lines,
-    /// Time-stepping scheme, as on the other end
+    /// Time-stepping scheme, the same as at the other end
     #[arg(long, value_parser = names::<SchemeName>(), default_value = SchemeName::default().name())]
     scheme: SchemeName,
-    /// How dampers act [default: the scheme's own]
+    /// Damping method [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>())]
     damping: Option<DampingName>,
-    /// Precision of all arithmetic in a step, as on the other end
+    /// Precision of all arithmetic in a step, the same as at the other end
     #[arg(long, value_parser = names::<PrecisionName>(), default_value = PrecisionName::F32.name())]
     precision: PrecisionName,
-    /// Step, as on the other end, e.g. 50us [default: that of `new firmware`]
+    /// Step, the same as at the other end, e.g. 50us [default: that of `new firmware`]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     step: Option<Time>,
-    /// Inputs that tables of the scene drive are driven over the line
+    /// Drive inputs with tables over the line instead
     #[arg(long)]
     without_tables: bool,
     /// Simulated time [default: the scene's]
@@ -60,55 +60,56 @@ pub(super) struct HilArguments {
     /// Steps per frame of inputs, or per tick
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..), conflicts_with = "serve")]
     steps: u32,
-    /// The plant's timer steps it, not each frame of inputs
+    /// Step the plant by its timer, not at each frame of inputs
     #[arg(long, conflicts_with = "serve")]
     real_time: bool,
-    /// What the plant does in real time when no inputs arrive for --timeout ticks
+    /// Reaction of the plant in real time when no inputs arrive for --timeout ticks
     #[arg(long, value_enum, default_value_t = Late::Hold, conflicts_with = "serve")]
     when_late: Late,
     /// Ticks without inputs after which they are late
     #[arg(long, value_name = "TICKS", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..), conflicts_with = "serve")]
     timeout: u32,
-    /// With --serve: from tick to tick of real time, e.g. 1ms [default: lockstep alone]
+    /// With --serve: tick period in real time, e.g. 1ms [default: lockstep only]
     #[arg(long, value_name = "TIME", requires = "serve")]
     period: Option<Time>,
-    /// With --serve: go on after a controller has said goodbye
+    /// With --serve: continue after a controller has disconnected
     #[arg(long, requires = "serve")]
     forever: bool,
-    /// How long an answer may take before it is asked for again
+    /// Time to wait for an answer before the request is repeated
     #[arg(long, value_name = "TIME", default_value = "200ms")]
     answer: Time,
-    /// How long a port that does not open, a plant or a controller that does not answer is waited for [default: 10s, with
-    /// --serve for ever]
+    /// Time to wait for a port that does not open, or for a plant or controller that does not answer [default: 10s,
+    /// with
+    /// --serve unlimited]
     #[arg(long, value_name = "TIME")]
     patience: Option<Time>,
     /// Damage frames in both directions, e.g. corrupt=1%,drop=1%,duplicate=1%,reorder=1%,seed=7
     #[arg(long, value_name = "FRACTIONS")]
     disturb: Option<Disturbance>,
-    /// Close the port at a step and open it after a time, e.g. 5000:60s
+    /// Close the port at a step and reopen it after a time, e.g. 5000:60s
     #[arg(long, value_name = "STEP:TIME", conflicts_with = "serve")]
     silence: Option<Silence>,
     /// Write a row per frame to this file, as CSV
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with = "serve")]
     trace: Option<PathBuf>,
-    /// Replace the trace where there is one
+    /// Overwrite an existing trace
     #[arg(long, requires = "trace")]
     overwrite: bool,
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }
 
-/// How lines to and from a controller are written.
+/// Format of the lines to and from a controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Lines {
-    /// Numbers with commas between them; the first line has the names
+    /// Comma-separated numbers; the first line contains the names
     Csv,
-    /// An object per line
+    /// One object per line
     Json,
 }
 
-/// What a plant does when inputs are late.
+/// Reaction of a plant to late inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Late {
     /// The inputs keep their values
@@ -119,7 +120,7 @@ enum Late {
     Stop,
 }
 
-/// When a line breaks, and for how long.
+/// Time and duration of a disconnection.
 #[derive(Clone, Copy, Debug)]
 struct Silence(u64, Duration);
 
@@ -127,14 +128,14 @@ impl FromStr for Silence {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (step, time) = text.split_once(':').ok_or("write STEP:TIME, e.g. 5000:60s")?;
+        let (step, time) = text.split_once(':').ok_or("expected STEP:TIME, e.g. 5000:60s")?;
         let step = step.parse().map_err(|_| format!("`{step}` is not a number of steps"))?;
         let time: Time = time.parse().map_err(|error| format!("`{time}`: {error}"))?;
         Ok(Self(step, duration(time)))
     }
 }
 
-/// What a plant or a controller that does not answer is waited for.
+/// How long to wait for a plant or a controller that does not answer.
 const PATIENCE: Duration = Duration::from_secs(10);
 /// Longer ones end no sooner for a user.
 const MAX_SECONDS: f64 = 1e9;

@@ -58,12 +58,12 @@ use crate::terminal::{Catalogue, Console, Exit, Found, Progress};
 #[derive(Debug, Parser)]
 #[command(name = "host-sim", version, disable_help_subcommand = true, max_term_width = 100)]
 #[command(
-    after_help = "Without a command it shows the first steps. The help of each command ends with examples."
+    after_help = "Without a command, the first steps are shown. The help of each command ends with examples."
 )]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Colours: on a terminal alone, always or never
+    /// Use colours: on a terminal only, always or never
     #[arg(
         long,
         alias = "colour",
@@ -77,10 +77,10 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Lists the scenes that have a name: those in scenes/ and those that are built in
+    /// Lists the named scenes: those in scenes/ and the built-in ones
     #[command(after_help = help::LIST)]
     List {
-        /// As JSON
+        /// Print JSON
         #[arg(long)]
         json: bool,
     },
@@ -90,61 +90,61 @@ enum Command {
     /// Reads and assembles a scene without running it: counts, joints, frequencies, warnings
     #[command(after_help = help::CHECK)]
     Check(CheckArguments),
-    /// Finds the modes of a scene: frequencies, damping ratios, effective masses, the joints that make them; with --out
+    /// Finds the modes of a scene: frequencies, damping ratios, effective masses and the joints involved; with --out
     /// writes DIR/SCENE/modes.{csv,json,html} and the matrices
     #[command(after_help = help::MODES)]
     Modes(ModesArguments),
-    /// Moves a scene's bodies to where they rest under their loads; prints what moved and the forces that remain
+    /// Moves a scene's bodies to static equilibrium under their loads; prints the displacements and residual forces
     #[command(after_help = help::RELAX)]
     Relax(RelaxArguments),
-    /// Surveys speed against accuracy: writes OUT/SCENE/trade.{csv,svg,html,json}, trade-cortex-m4f.svg
-    /// where steps were counted, and trade-*.cache; prints what to choose
+    /// Compares speed and accuracy of the methods: writes OUT/SCENE/trade.{csv,svg,html,json}, trade-cortex-m4f.svg
+    /// where steps were counted, and trade-*.cache; prints a recommendation
     #[command(after_help = help::TRADE)]
     Trade(TradeArguments),
-    /// Recommends one way of stepping a scene on a microcontroller, verified by running it; exit code 1 where
-    /// nothing meets the request
+    /// Recommends a method and step for a scene on a microcontroller, verified by running it; exit code 1 if
+    /// no method meets the requirements
     #[command(after_help = help::ADVISE)]
     Advise(AdviseArguments),
-    /// Measures the results of the method's paper again: writes OUT/reproduce/reproduce.{html,md,json} and files of
-    /// each item, prints the paper's value, this one's and a verdict
+    /// Reproduces the results of the method's paper: writes OUT/reproduce/reproduce.{html,md,json} and files of
+    /// each item, prints the paper's value, the measured one and a verdict
     #[command(after_help = help::REPRODUCE)]
     Reproduce(ReproduceArguments),
-    /// Runs a scene with many values: writes OUT/SPEC/sweep.{csv,html,json}, a row per case; finished cases
-    /// never run again
+    /// Runs a scene with many values: writes OUT/SPEC/sweep.{csv,html,json}, one row per case; finished cases
+    /// are not run again
     #[command(after_help = help::SWEEP)]
     Sweep(SweepArguments),
-    /// Compares two recorded runs, two schemes or a PC and a chip: bits, first difference, how far apart; writes
-    /// OUT/compare/NAME/{report.html,compare.json}; exit code 0 where they are equal, 1 where not
+    /// Compares two recorded runs, e.g. two schemes or a PC and a chip: bits, first difference, distances; writes
+    /// OUT/compare/NAME/{report.html,compare.json}; exit code 0 if they are equal, 1 if not
     #[command(after_help = help::COMPARE)]
     Compare(CompareArguments),
-    /// Prints Rust source of a scene's const model and of its plant, for a firmware
+    /// Prints Rust source of a scene's const model and of its plant, for firmware
     #[command(after_help = help::EXPORT)]
     Export(ExportArguments),
-    /// Writes an FMU of a scene, with which other tools simulate it: FMI 2.0 or 3.0, co-simulation
+    /// Writes an FMU of a scene for other simulation tools: FMI 2.0 or 3.0, co-simulation
     #[command(after_help = help::FMU)]
     Fmu(FmuArguments),
     /// Linearises a scene: prints poles, drift and names, with --out writes A, B, C and D
     #[command(after_help = help::LINEARISE)]
     Linearise(LineariseArguments),
     /// Hardware in the loop: drives a plant on a microcontroller over a serial line and compares every frame bit for
-    /// bit with its own model, or is the plant (--serve); exit code 1 where a bit differs
+    /// bit with its own model, or serves the plant (--serve); exit code 1 if a bit differs
     #[command(after_help = help::HIL)]
     Hil(HilArguments),
-    /// Writes a page in which scenes run live, with the bits of run: sliders, curves, an editor, a hand at the bodies; opens
-    /// it in a browser, or serves it (--serve)
+    /// Writes a page in which scenes run live, bit-identical to run: sliders, curves, an editor, dragging of bodies;
+    /// opens it in a browser, or serves it (--serve)
     #[command(after_help = help::PLAY)]
     Play(PlayArguments),
-    /// Makes a scene of MuJoCo's MJCF or of a URDF: each part with the line it comes from; what has no counterpart is
-    /// listed with its size and refused, unless its kind is ignored
+    /// Converts MuJoCo's MJCF or a URDF to a scene, each part with its source line; elements without a counterpart are
+    /// listed with their size and are an error, unless their kind is ignored
     #[command(after_help = help::IMPORT)]
     Import(ImportArguments),
-    /// Writes a new project or a new scene that runs as it is
+    /// Writes a new project or a new scene, ready to run
     #[command(subcommand, disable_help_subcommand = true)]
     New(NewCommand),
-    /// Prints the JSON Schema of scene files, from which editors complete keys
+    /// Prints the JSON Schema of scene files, for completion in editors
     #[command(after_help = help::SCHEMA)]
     Schema,
-    /// Prints a script that completes commands, options and scenes for a shell
+    /// Prints a shell's completion script for commands, options and scenes
     #[command(after_help = help::COMPLETIONS)]
     Completions {
         /// The shell
@@ -152,7 +152,7 @@ enum Command {
     },
 }
 
-/// Runs a command line, the program's name first.
+/// Runs a command line that begins with the program's name.
 pub fn main_with<I>(arguments: I, console: &mut Console<'_>) -> Exit
 where
     I: IntoIterator,
@@ -208,7 +208,7 @@ fn finish(done: Result<Exit, Error>, console: &mut Console<'_>) -> Exit {
     })
 }
 
-/// Prints help, version or what is wrong with the arguments.
+/// Prints help, version or an error in the arguments.
 fn usage(error: &clap::Error, console: &mut Console<'_>) -> Exit {
     let look = if error.use_stderr() { console.err_look } else { console.look };
     let text = match look.colours {

@@ -16,23 +16,23 @@ use crate::terminal::{Catalogue, Console, Exit};
 pub(super) struct ModesArguments {
     #[command(flatten)]
     pub(super) scene: SceneArgument,
-    /// How many of the lowest modes
+    /// Number of modes, lowest first
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..))]
     count: u16,
-    /// About the pose at which the scene rests under its loads, not the one at t = 0
+    /// Linearise about the static equilibrium under the loads, not the pose at t = 0
     #[arg(long)]
     relax: bool,
-    /// Find a frequency by the paper's procedure, too: lengthen springs of a joint, run, transform
-    /// [default joint: the one that makes the fastest mode]
+    /// Also find a frequency by the paper's procedure: lengthen springs of a joint, run, transform
+    /// [default joint: that of the fastest mode]
     #[arg(long, value_name = "JOINT", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     kick: Option<String>,
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
     /// Write DIR/SCENE/modes.{csv,json,html} and the matrices as mass.mtx, stiffness.mtx, damping.mtx
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
-    /// Replace the results of another scene whose file has the same name
+    /// Overwrite results of another scene whose file has the same name
     #[arg(long, requires = "out")]
     overwrite: bool,
 }

@@ -1,4 +1,4 @@
-//! What arguments name: a scene, a method's damping, a folder for results.
+//! Arguments that name a scene, a damping method or a results folder.
 
 use std::path::PathBuf;
 
@@ -12,10 +12,10 @@ use crate::terminal::{Catalogue, Found, SceneFile};
 
 #[derive(Debug, Args)]
 pub(super) struct ResultsArguments {
-    /// Folder below which results are written, each scene's in one of its file's name
+    /// Folder for results; each scene gets a subfolder named after its file
     #[arg(long, value_name = "DIR", default_value = "out", value_hint = ValueHint::DirPath)]
     out: PathBuf,
-    /// Replace the results of another scene whose file has the same name
+    /// Overwrite results of another scene whose file has the same name
     #[arg(long)]
     overwrite: bool,
 }
@@ -31,7 +31,7 @@ pub(super) fn load(catalogue: &Catalogue, argument: &SceneArgument) -> Result<Fo
     Ok(catalogue.load_with(&argument.scene, &argument.changes())?)
 }
 
-/// A method that leaves another part of a vibration per step.
+/// A method with another spectral radius at infinite frequency.
 pub(super) fn leaving(method: Method, rho: Option<f64>) -> Result<Method, Error> {
     Ok(match rho {
         Some(rho) => method.with_rho(rho)?,

@@ -14,13 +14,13 @@ use crate::terminal::{Catalogue, Console, Exit};
 
 #[derive(Debug, Args)]
 pub(super) struct PlayArguments {
-    /// Scenes by name (see list), paths to .toml files, or - for standard input; more than one stand in a menu
+    /// Scenes by name (see list), paths to .toml files, or - for standard input; several are offered in a menu
     #[arg(value_hint = ValueHint::FilePath, required_unless_present = "all")]
     pub(super) scenes: Vec<String>,
-    /// All scenes that have a name
+    /// Include all named scenes
     #[arg(long, conflicts_with = "scenes")]
     all: bool,
-    /// Changes one number of the first scene by its path, in SI units, as often as wanted: body.cart.mass=1.2
+    /// Set one number of the first scene by its path, in SI units; may be repeated: body.cart.mass=1.2
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Time-stepping scheme
@@ -29,28 +29,28 @@ pub(super) struct PlayArguments {
     /// Newton iterations, for dbd, dbd-p1 and dbd-p2
     #[arg(long, value_name = "N")]
     newton: Option<u32>,
-    /// What is left per step of a vibration that it does not resolve, for generalized-alpha
+    /// Spectral radius of generalized-alpha at infinite frequency
     #[arg(long, value_name = "FRACTION")]
     rho: Option<f64>,
-    /// How dampers act [default: the scheme's own]
+    /// Damping method [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>())]
     damping: Option<DampingName>,
     /// Precision of all arithmetic in a step
     #[arg(long, value_parser = names::<PrecisionName>(), default_value = PrecisionName::default().name())]
     precision: PrecisionName,
-    /// Step, e.g. 50us [default: as run]
+    /// Step, e.g. 50us [default: that of run]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     step: Option<Time>,
-    /// Simulated time per real time, e.g. 0.1 [default: the scene's duration takes 7 s]
+    /// Ratio of simulated to real time, e.g. 0.1 [default: the scene's duration takes 7 s]
     #[arg(long, value_name = "FACTOR", allow_hyphen_values = true)]
     speed: Option<f64>,
-    /// The page [default: out/SCENE/play.html, out/play.html for more scenes]
+    /// Write the page to this file [default: out/SCENE/play.html, out/play.html for several scenes]
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     out: Option<PathBuf>,
-    /// Serve the page on 127.0.0.1 and show the file's scene anew each time it has changed; Ctrl-C ends it
+    /// Serve the page on 127.0.0.1 and reload the scene when its file changes; stop with Ctrl-C
     #[arg(long, conflicts_with_all = ["out", "all"])]
     serve: bool,
-    /// With --serve: the port [default: a free one]
+    /// Port for --serve [default: a free one]
     #[arg(long, value_name = "PORT", requires = "serve")]
     port: Option<u16>,
     /// Do not open the page in a browser
@@ -97,7 +97,7 @@ pub(super) fn play_scenes(
         settings: arguments.settings(),
         speed: arguments.speed,
     };
-    // What is wrong with a scene is said before what is wrong with the program's surroundings.
+    // Errors in the scene are reported before errors of the environment.
     let begun = page(asked)?;
     let module = module(arguments.module.as_deref())?;
     let opens = console.terminal && !arguments.no_open;
@@ -105,7 +105,7 @@ pub(super) fn play_scenes(
         let file =
             catalogue.file(&called[0]).ok_or_else(|| PlayError::NoFile(called[0].clone()))?;
         serve(begun, &module, &file, arguments.port, &mut |url| {
-            // A reader that has gone has the page all the same.
+            // The page is written even if nobody reads the output.
             let _ = console.print(&format!("{url}\n"));
             open(opens, url, console);
         })?;
@@ -118,9 +118,9 @@ pub(super) fn play_scenes(
     Ok(Exit::Done)
 }
 
-/// Shows a page in the user's browser; a machine without one is told where the page is.
+/// Opens a page in the user's browser; without a browser, prints the location of the page.
 fn open(wanted: bool, page: &str, console: &mut Console<'_>) {
     if wanted && open::that_detached(page).is_err() {
-        console.note("no browser was found: open it in one");
+        console.note("no browser found: open the page manually");
     }
 }

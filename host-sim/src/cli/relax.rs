@@ -16,14 +16,14 @@ use crate::terminal::{Catalogue, Console, Exit};
 pub(super) struct RelaxArguments {
     #[command(flatten)]
     pub(super) scene: SceneArgument,
-    /// As JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
-    /// Write the scene in its long form, its bodies at rest where forces balance; - for standard output,
-    /// in place of the table
+    /// Write the scene at equilibrium in its long form; - for standard output,
+    /// instead of the table
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     out: Option<PathBuf>,
-    /// Replace the file where there is one
+    /// Overwrite an existing file
     #[arg(long, requires = "out")]
     overwrite: bool,
 }

@@ -15,16 +15,16 @@ pub(super) struct ReproduceArguments {
     /// Items of the paper, e.g. table-7a or fig-18 [default: those that take seconds]
     #[arg(value_name = "ITEM")]
     items: Vec<String>,
-    /// Every item: takes minutes, and goes on where it was interrupted
+    /// Measure every item; takes minutes and resumes after an interruption
     #[arg(long, conflicts_with = "items")]
     all: bool,
-    /// Folder below which results are written
+    /// Folder for results
     #[arg(long, value_name = "DIR", default_value = "out", value_hint = ValueHint::DirPath)]
     out: PathBuf,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(long)]
     quiet: bool,
-    /// Print findings as JSON
+    /// Print the results as JSON
     #[arg(long)]
     json: bool,
 }

@@ -28,14 +28,14 @@ pub(super) struct RunArguments {
     /// Newton iterations per step of the dbd schemes, at most 8 [default: 0]
     #[arg(long, value_name = "N")]
     newton: Option<u32>,
-    /// What is left per step of a vibration that it does not resolve, of generalized-alpha: 0 to 0.8
-    /// [default: 0.5]
+    /// Spectral radius of generalized-alpha at infinite frequency, 0 to 0.8: the fraction of an unresolved
+    /// vibration that remains per step [default: 0.5]
     #[arg(long, value_name = "RHO", allow_hyphen_values = true)]
     rho: Option<f64>,
-    /// How dampers act [default: the scheme's own]
+    /// Damping method [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>())]
     damping: Option<DampingName>,
-    /// Ideal joints: makes them so stiff, and takes such a model, scheme and step, that the motion is off by at most
+    /// Approximate ideal joints: choose joint stiffness, model, scheme and step for an error of the motion of at most
     /// this, e.g. 0.1mm, root mean square over bodies and time
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true,
         conflicts_with_all = ["scheme", "newton", "rho", "damping", "step", "precision", "orientation"])]
@@ -49,35 +49,35 @@ pub(super) struct RunArguments {
     /// Precision of all arithmetic in a step
     #[arg(long, value_parser = names::<PrecisionName>(), default_value = PrecisionName::default().name())]
     precision: PrecisionName,
-    /// How orientations are stored
+    /// Representation of orientations
     #[arg(long, value_parser = names::<OrientationName>(), default_value = OrientationName::default().name())]
     orientation: OrientationName,
     /// Sampling interval, e.g. 1ms [default: the scene's, else about 500 samples]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     every: Option<Time>,
-    /// End the run at the first sample whose total energy has changed by more than so many joules,
-    /// or risen where only dampers change it
+    /// Stop at the first sample whose total energy has changed by more than this, in joules; with dampers
+    /// only, whose energy has risen by more
     #[arg(long, value_name = "LIMIT", allow_hyphen_values = true)]
     watch_energy: Option<EnergyLimit>,
-    /// Compare with the golden run in a file, bit for bit; DBD_BLESS=golden in the environment writes it
+    /// Compare bit for bit with the golden run in a file; DBD_BLESS=golden in the environment writes the file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     golden: Option<PathBuf>,
-    /// Compare within bands instead, by whatever scheme and precision: 1e-6 for all in SI units, or
+    /// Compare within bands instead, for any scheme and precision: 1e-6 for all in SI units, or
     /// position=1e-6,orientation=1e-6,velocity=1e-3,angular-velocity=1e-3,READOUT=1e-3
     #[arg(long, value_name = "BANDS", requires = "golden", allow_hyphen_values = true)]
     golden_band: Option<BandList>,
-    /// Find the N lowest modes about the pose at t = 0, undamped: at most 200 bodies
+    /// Find the N lowest undamped modes about the pose at t = 0; at most 200 bodies
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
     modes: Option<u16>,
-    /// Write no report.html
+    /// Do not write report.html
     #[arg(long)]
     no_report: bool,
-    /// Write the animation as glTF, too: SCENE.glb
+    /// Also write the animation as glTF: SCENE.glb
     #[arg(long)]
     gltf: bool,
     #[command(flatten)]
     results: ResultsArguments,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(long)]
     quiet: bool,
     /// Print the summary as JSON
@@ -128,7 +128,7 @@ pub(super) fn run_scene(
     let outcome = run(&scene, &options, &mut |stage, done, all| {
         if stage != before {
             before = stage;
-            progress.restart("evaluations at most in search of a step that works");
+            progress.restart("evaluations at most in search of a stable step");
         }
         progress.update(done, all);
     });
@@ -159,7 +159,7 @@ pub(super) fn run_scene(
     Ok(if ended_by.is_some() { Exit::Failed } else { Exit::Done })
 }
 
-/// The scene with joints as good as ideal, and how it is stepped; says what was chosen.
+/// The scene with nearly ideal joints, its method and step; prints the choice.
 fn ideally(
     scene: &Scene,
     arguments: &RunArguments,
@@ -184,15 +184,15 @@ fn ideally(
     Ok(found)
 }
 
-/// What was chosen, and how far each part of it leads off.
+/// The choice, with the error contributed by each part.
 fn chosen(found: &Ideal) -> String {
     let set: String = found.set.iter().map(|set| format!(" --set {set}")).collect();
     let model = match found.by_model > 0.0 {
-        true => format!(", the model `{}` {:.1e} m", found.model, found.by_model),
+        true => format!(", model `{}` {:.1e} m", found.model, found.by_model),
         false => String::new(),
     };
     format!(
-        "ideal joints to {:.1e} m (the step {:.1e} m, the joints' {:.0e} N/m {:.1e} m{model}):{set} --scheme {} --step {}",
+        "ideal joints, error {:.1e} m (step {:.1e} m, joint stiffness {:.0e} N/m {:.1e} m{model}):{set} --scheme {} --step {}",
         found.off(),
         found.by_step,
         found.stiffness,

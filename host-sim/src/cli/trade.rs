@@ -18,20 +18,20 @@ use crate::terminal::{Catalogue, Console, Exit, Found, Progress};
 pub(super) struct TradeArguments {
     #[command(flatten)]
     pub(super) scene: SceneArgument,
-    /// Longest window of comparison, e.g. 0.2s; it ends before chaos takes over [default: 0.5s or
+    /// Longest comparison window, e.g. 0.2s; it ends before the motion becomes chaotic [default: 0.5s or
     /// the scene's duration]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     window: Option<Time>,
-    /// Time that every step divides, e.g. a controller's 1ms [default: the scene's sampling interval,
-    /// else a power of ten of ten steps or more]
+    /// Time that is a multiple of every step, e.g. a controller's 1ms [default: the scene's sampling interval,
+    /// else a power of ten of at least ten steps]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     period: Option<Time>,
     #[command(flatten)]
     results: ResultsArguments,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(long)]
     quiet: bool,
-    /// Print window and all points as JSON
+    /// Print the window and all points as JSON
     #[arg(long)]
     json: bool,
 }
@@ -57,14 +57,14 @@ pub(super) fn trade_scene(
     let bars = console.terminal && !arguments.quiet;
     let mut progress = Progress::of(bars, "evaluations", lines);
     let done = trade(&scene, request, &mut |phase| match phase {
-        Phase::Window => progress.begin("how long before chaos"),
-        Phase::Truth => progress.begin("the truth"),
-        Phase::Opinion => progress.begin("the truth, a second opinion"),
-        Phase::Limits => progress.begin("the largest stable steps"),
+        Phase::Window => progress.begin("time until chaotic motion"),
+        Phase::Truth => progress.begin("reference solution"),
+        Phase::Opinion => progress.begin("second reference solution"),
+        Phase::Limits => progress.begin("largest stable steps"),
         Phase::Runs(done, all) => progress.update(done, all),
         Phase::Times(0, _) => progress.begin("measuring times"),
         Phase::Times(..) => {}
-        Phase::Variants => progress.begin("other models of the mechanism"),
+        Phase::Variants => progress.begin("alternative models of the mechanism"),
     });
     progress.finish();
     let (trade, folder) = done?;

@@ -1,4 +1,4 @@
-//! `host-sim advise`: one way of stepping a scene on a microcontroller, verified by running it.
+//! `host-sim advise`: a method and step for a scene on a microcontroller, verified by running it.
 //!
 //! `(scene, microcontroller, clock, rate, accuracy) => recommendation => rows, JSON`.
 
@@ -12,19 +12,22 @@ use dbd_study::words::{percent, times};
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// What is asked for cannot be read.
+/// An invalid argument.
 #[derive(Debug, Error, Diagnostic)]
 pub enum AskedError {
-    /// No such microcontroller.
-    #[error("there is no microcontroller called {name}")]
-    #[diagnostic(help("one of {}", known()))]
+    /// Unknown microcontroller.
+    #[error("unknown microcontroller `{name}`")]
+    #[diagnostic(help("use one of {}", known()))]
     Mcu {
         /// As asked for.
         name: String,
     },
     /// Not a positive number in the unit.
-    #[error("--{option} cannot be {text}")]
-    #[diagnostic(help("a positive number with its unit, for example {example}{}", clocks(option)))]
+    #[error("--{option}: invalid value `{text}`")]
+    #[diagnostic(help(
+        "give a positive number with its unit, for example {example}{}",
+        clocks(option)
+    ))]
     Number {
         /// The option.
         option: &'static str,
@@ -48,7 +51,7 @@ fn clocks(option: &str) -> String {
 /// A microcontroller by its name.
 ///
 /// # Errors
-/// [`AskedError::Mcu`] names those that there are.
+/// [`AskedError::Mcu`] names the known ones.
 pub fn mcu(name: &str) -> Result<&'static Mcu, AskedError> {
     Mcu::of_name(name).ok_or_else(|| AskedError::Mcu { name: name.to_owned() })
 }
@@ -56,7 +59,7 @@ pub fn mcu(name: &str) -> Result<&'static Mcu, AskedError> {
 /// \[`unit`\] a positive number of an option, with a unit or in SI units.
 ///
 /// # Errors
-/// [`AskedError::Number`] where it is none.
+/// [`AskedError::Number`] if it is not one.
 pub fn positive(
     option: &'static str,
     unit: &str,
@@ -71,7 +74,7 @@ pub fn positive(
     value.ok_or_else(|| AskedError::Number { option, text: text.to_owned(), example })
 }
 
-/// A length as people say it.
+/// A length for people.
 fn length(value: f64) -> String {
     format!("{value:.1e} m")
 }
@@ -99,20 +102,21 @@ fn because(found: &Recommendation) -> String {
                 )
             });
             let element = element.as_ref().map_or_else(String::new, |element| {
-                format!("; of the elements {element} alone is fastest")
+                format!("; {element} is the element with the highest natural frequency")
             });
             format!("vibration at {} Hz{stable}{element}", significant(*frequency_hz, 3))
         }
-        Limit::Spin { body } => format!("body `{body}` turns fast: 0.1 rad in a step at most"),
-        Limit::Motion { fails } => format!(
-            "the motion: a longer step, stable at t = 0, fails at t = {}",
-            approximate(*fails)
-        ),
-        Limit::Accuracy => "the accuracy: a longer step is stable, and further off".into(),
+        Limit::Spin { body } => {
+            format!("angular velocity of body `{body}`: at most 0.1 rad per step")
+        }
+        Limit::Motion { fails } => {
+            format!("motion: a longer step, stable at t = 0, fails at t = {}", approximate(*fails))
+        }
+        Limit::Accuracy => "accuracy: a longer step is stable but less accurate".into(),
         Limit::Period => {
             let whose = match found.rate {
                 Some(rate) => format!("the controller's period, {}", display(1.0 / rate)),
-                None => "the time of which duration and sampling interval are multiples".into(),
+                None => "the common divisor of duration and sampling interval".into(),
             };
             let stable = found.stable_step.map_or_else(String::new, |stable| {
                 format!("; the largest stable step is {}", approximate(stable))
@@ -128,7 +132,7 @@ fn changed(change: &Change) -> String {
         (Some(measured), Some(step)) => {
             format!("measured {} at a step of {}", ratio(measured), display(step))
         }
-        _ => "measured: no step of it came to the end".into(),
+        _ => "measured: no step completed the run".into(),
     };
     let moves = change
         .moves
@@ -138,7 +142,7 @@ fn changed(change: &Change) -> String {
     format!("{}: predicted {}, {measured}{moves}{set}", change.what, ratio(change.predicted))
 }
 
-/// What people read: names and texts.
+/// The report for people: names and texts.
 #[must_use]
 pub fn rows(scene: &Scene, called: &str, found: &Recommendation) -> Vec<(&'static str, String)> {
     let way = &found.way;
@@ -152,11 +156,11 @@ pub fn rows(scene: &Scene, called: &str, found: &Recommendation) -> Vec<(&'stati
     if let Some(why) = &found.shortfall {
         rows.push(("not met", why.clone()));
     }
-    let asked = if found.accuracy_asked { "asked" } else { "1 % of the way that bodies go" };
+    let asked = if found.accuracy_asked { "asked" } else { "1 % of the bodies' displacement" };
     rows.push((
         "accuracy",
         format!(
-            "off by {} over {} ({asked}: {}; the truth is known to {})",
+            "error {} over {} ({asked}: {}; the reference solution is accurate to {})",
             length(way.error),
             display(found.window),
             length(found.accuracy),
@@ -165,14 +169,14 @@ pub fn rows(scene: &Scene, called: &str, found: &Recommendation) -> Vec<(&'stati
     ));
     let basis = match (way.counted, way.scheme) {
         (true, _) => "counted in an emulator",
-        // Its matrix fills as the mechanism has it.
+        // The fill-in of its matrix depends on the mechanism.
         (false, "generalized-alpha" | "generalized-alpha-3") => {
             "estimated by elements, within a factor of 2"
         }
         (false, _) => "estimated by elements",
     };
     let verdict = if way.load <= 1.0 {
-        format!("in real time with a margin of {}", times(1.0 / way.load))
+        format!("real time with a margin of {}", times(1.0 / way.load))
     } else {
         "not in real time".to_owned()
     };
@@ -191,19 +195,19 @@ pub fn rows(scene: &Scene, called: &str, found: &Recommendation) -> Vec<(&'stati
     let (steps, time) = found.verified;
     let ends = found.ends.as_ref().map_or_else(String::new, |ends| {
         let what = ends.joint.as_ref().map_or_else(
-            || "the scene as it is fails in any step: `host-sim run` says why".to_owned(),
-            |joint| format!("joint `{joint}` opens by more than its own size in any step"),
+            || "the scene fails with every step: `host-sim run` reports the reason".to_owned(),
+            |joint| format!("joint `{joint}` opens by more than its own size with every step"),
         );
-        format!("; no further, for at t = {} {what}", approximate(ends.time))
+        format!("; the window ends there: at t = {} {what}", approximate(ends.time))
     });
-    let went = format!("{steps} steps to {} without trouble{ends}", approximate(time));
+    let went = format!("{steps} steps to {} without failure{ends}", approximate(time));
     rows.push(("verified", went));
     if let Some(error) = found.error_in_f64.filter(|_| way.precision != "f64") {
-        let text = format!("in f64 the same is off by {}", length(error));
+        let text = format!("in f64 the error is {}", length(error));
         rows.push(("rounding", text));
     }
     let (tried, all) = found.tried;
-    rows.push(("looked at", format!("{tried} of {all} ways were run; no other can cost less")));
+    rows.push(("examined", format!("{tried} of {all} methods were run; no other can cost less")));
     for change in &found.changes {
         rows.push(("would help", changed(change)));
     }

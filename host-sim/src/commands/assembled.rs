@@ -1,4 +1,4 @@
-//! What was moved to close the joints of a scene and to bring it to rest, as `check` and `run` say it.
+//! Displacements that closed the joints of a scene and brought it to equilibrium, as `check` and `run` report them.
 //!
 //! `scene => bodies with how far, joints that were open, what is left free; sentences`.
 
@@ -6,7 +6,7 @@ use dbd_plant::digits::significant;
 use dbd_scene::{Assembled, Moved, OpenJoint, Scene};
 use serde::Serialize;
 
-/// Bodies or joints that a line names.
+/// Largest number of bodies or joints in a line.
 const NAMED: usize = 6;
 
 /// What was moved to close the joints.
@@ -20,7 +20,7 @@ pub struct AssembledCheck {
     pub set_moving: Vec<String>,
     /// Steps that were computed.
     pub iterations: usize,
-    /// Freedoms that the joints leave to the bodies that may be moved.
+    /// Degrees of freedom that the joints leave to the movable bodies.
     pub freedoms: usize,
     /// Constraints that others imply.
     pub held_twice: usize,
@@ -50,7 +50,7 @@ impl SettledCheck {
     #[must_use]
     pub fn sentence(&self) -> String {
         moved_text(&self.moved, self.iterations)
-            .unwrap_or_else(|| "nothing was moved: the scene is at rest".into())
+            .unwrap_or_else(|| "no body was moved: the scene is in equilibrium".into())
     }
 }
 
@@ -113,8 +113,10 @@ impl AssembledCheck {
     /// A row of a table each.
     #[must_use]
     pub fn rows(&self) -> Vec<(&'static str, String)> {
-        let free =
-            format!("{} left to what may move, {} held twice", self.freedoms, self.held_twice);
+        let free = format!(
+            "{} remain to the movable bodies, {} constraints are redundant",
+            self.freedoms, self.held_twice
+        );
         let mut rows = vec![("assembled", self.sentence()), ("freedoms", free)];
         let open = self.open.iter().map(|open| (open.joint.as_str(), open.distance, open.angle));
         if let Some(open) = named(open) {
@@ -131,7 +133,7 @@ impl AssembledCheck {
     #[must_use]
     pub fn sentence(&self) -> String {
         moved_text(&self.moved, self.iterations)
-            .unwrap_or_else(|| "nothing was moved: all joints are closed".into())
+            .unwrap_or_else(|| "no body was moved: all joints are closed".into())
     }
 }
 

@@ -1,7 +1,7 @@
-//! `host-sim check`: what a scene is, without running it.
+//! `host-sim check`: properties of a scene, without running it.
 //!
-//! `scene => counts, degrees of freedom, per joint what it holds and how well it fits, highest
-//! frequency, warnings, notes`. Warnings are for things that are probably not meant; they do not
+//! `scene => counts, degrees of freedom, constraints and assembly error per joint, highest
+//! frequency, warnings, notes`. Warnings report probable mistakes; they do not
 //! change the exit code.
 
 use dbd_kernel::BodyIndex;
@@ -27,7 +27,7 @@ use crate::commands::stability::StabilityCheck;
 use crate::commands::warnings::{of_step, with_notes};
 use crate::terminal::Look;
 
-/// What is known of a scene before it runs.
+/// Properties of a scene before it runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Check {
     /// Its name.
@@ -48,7 +48,7 @@ pub struct Check {
     pub readouts: Vec<ReadoutCheck>,
     /// The joints.
     pub joints: Vec<JointCheck>,
-    /// Bodies that are given by links, shapes or tensors with products: what came of them.
+    /// Bodies given by links, shapes or tensors with products of inertia, with the derived values.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub derived: Vec<DerivedCheck>,
     /// Freedoms that the joints leave: constraints that loops imply count once, motions that exist to
@@ -60,43 +60,43 @@ pub struct Check {
     pub equations: usize,
     /// Equations of a solver with constraints (Franco & Degani 2026, Table 7a).
     pub constraint_equations: usize,
-    /// The plane in which the scene lies, or what leaves it.
+    /// The plane of the scene, or the elements outside it.
     pub plane: PlaneCheck,
     /// Groups of bodies that nothing connects with each other.
     pub islands: usize,
     /// \[m\] the largest assembly error of a joint.
     pub assembly_error: f64,
-    /// What was moved to close the joints, where the scene has a table `assemble`.
+    /// Displacements that closed the joints, if the scene has a table `assemble`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub assembled: Option<AssembledCheck>,
-    /// What was moved to bring it to rest, where it says `settle = true`.
+    /// Displacements that brought it to equilibrium, if it has `settle = true`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settled: Option<SettledCheck>,
     /// \[Hz\] upper bound of the highest frequency at t = 0.
     pub frequency_bound_hz: f64,
     /// \[Hz\] estimate of the highest frequency at t = 0.
     pub frequency_estimate_hz: f64,
-    /// The element that alone would vibrate fastest; `None` where there is none.
+    /// The element with the highest natural frequency; `None` without elements.
     pub fastest_element: Option<FastestElement>,
-    /// \[s\] 1/ω of the bound, or less where a body spins fast; `None` where nothing does either.
+    /// \[s\] 1/ω of the bound, or less if a body rotates fast; `None` without either limit.
     pub advised_step: Option<f64>,
     /// \[s\] the scene's own step, where it gives one.
     pub step: Option<f64>,
-    /// What a step of leapfrog in f32 takes on Cortex-M4F, as estimated by bodies and elements.
+    /// Estimated cost of a step of leapfrog in f32 on Cortex-M4F, from bodies and elements.
     pub estimated_instructions: Option<EstimateCheck>,
-    /// The largest stable step of a method, where it was asked for.
+    /// The largest stable step of a method, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stability: Option<StabilityCheck>,
-    /// What is probably not meant.
+    /// Warnings of probable mistakes.
     pub warnings: Vec<String>,
-    /// What is good to know.
+    /// Notes.
     pub notes: Vec<String>,
 }
 
-/// Instructions of a step on Cortex-M4F, as estimated.
+/// Estimated instructions of a step on Cortex-M4F.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EstimateCheck {
-    /// With the scheme's own way of damping.
+    /// With the scheme's own damping method.
     pub sweeps: f64,
     /// With joint-wise damping.
     pub joint_wise: f64,
@@ -120,14 +120,14 @@ impl EstimateCheck {
             true => String::new(),
             false => format!(", {joint_wise} with joint-wise damping"),
         };
-        format!("some {own} instructions per step of leapfrog in f32{damped}, estimated")
+        format!("about {own} instructions per step of leapfrog in f32{damped}, estimated")
     }
 }
 
-/// The element that alone would vibrate fastest.
+/// The element with the highest natural frequency.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FastestElement {
-    /// What messages call it.
+    /// Its name in messages.
     pub name: String,
     /// \[Hz\] alone between its two bodies.
     pub frequency_hz: f64,
@@ -135,7 +135,7 @@ pub struct FastestElement {
     pub over_median: Option<f64>,
 }
 
-/// What is known of a joint before the scene runs.
+/// Properties of a joint before the scene runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JointCheck {
     /// Its name.
@@ -143,12 +143,12 @@ pub struct JointCheck {
     /// Its type.
     #[serde(rename = "type")]
     pub kind: &'static str,
-    /// What it is made of, where that is not TSDAs: `bushing`.
+    /// Its elements if they are not TSDAs: `bushing`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub realisation: Option<&'static str>,
     /// Its bodies.
     pub between: [String; 2],
-    /// Degrees of freedom that it holds.
+    /// Degrees of freedom that it constrains.
     pub holds: u32,
     /// Its TSDAs.
     pub tsdas: usize,
@@ -158,14 +158,14 @@ pub struct JointCheck {
     pub initial_length: [f64; 2],
     /// \[m\] the largest |L − L0| at t = 0.
     pub assembly_error: f64,
-    /// \[m/s\] the largest rate of a TSDA's length at t = 0: what the bodies' velocities do to it.
+    /// \[m/s\] the largest rate of a TSDA's length at t = 0, from the bodies' velocities.
     pub stretching_rate: f64,
 }
 
-/// What is known of an interaction.
+/// Properties of an interaction.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InteractionCheck {
-    /// Its name, or what messages call it: ``interaction 1 (world–bar)``.
+    /// Its name, or its name in messages: ``interaction 1 (world–bar)``.
     pub name: String,
     /// Its law.
     pub law: &'static str,
@@ -188,7 +188,7 @@ impl InteractionCheck {
     }
 }
 
-/// What is known of an input.
+/// Properties of an input.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InputCheck {
     /// Its name.
@@ -202,7 +202,7 @@ pub struct InputCheck {
     pub table: bool,
 }
 
-/// What is known of a read-out.
+/// Properties of a read-out.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReadoutCheck {
     /// Its name.
@@ -313,11 +313,11 @@ pub fn check(scene: &Scene) -> Check {
 }
 
 impl Check {
-    /// What people read.
+    /// The report for people.
     #[must_use]
     pub fn text(&self, look: Look) -> String {
         let advised = advised_text(self.advised_step, self.frequency_bound_hz);
-        let step = self.step.map_or_else(|| "– (the advised one)".into(), display);
+        let step = self.step.map_or_else(|| "– (the advised step is used)".into(), display);
         let fastest = match &self.fastest_element {
             Some(FastestElement { name, frequency_hz, over_median }) => {
                 let median = over_median
@@ -332,7 +332,7 @@ impl Check {
         };
         let freedoms = match [self.freedoms_by_rank, self.first_order_freedoms] {
             [Some(all), Some(first)] if all != first => {
-                format!("{all}; {first} to first order, for the pose is singular")
+                format!("{all}; {first} to first order, because the pose is singular")
             }
             [all, _] => all.map_or_else(|| "– (too many bodies)".into(), |all| all.to_string()),
         };

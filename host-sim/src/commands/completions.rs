@@ -1,6 +1,6 @@
 //! `host-sim completions`: a script with which a shell completes commands, options and scenes.
 //!
-//! `(command line, names of scenes, shell) => script`. The names are those of the moment.
+//! `(command line, names of scenes, shell) => script`. The names are the present ones.
 
 use clap::Command;
 use clap::builder::PossibleValuesParser;
@@ -9,10 +9,10 @@ use clap_complete::{Shell, generate};
 /// The argument that takes a scene.
 const SCENE: &str = "scene";
 
-/// The script of a shell. Where a scene may stand, it offers the names and the files.
+/// The script of a shell. For scene arguments it offers names and files.
 #[must_use]
 pub fn script(mut command: Command, names: &[String], shell: Shell) -> String {
-    // Another name would need quotes, of which each shell has its own.
+    // Other names would need shell-specific quoting.
     let plain =
         |name: &&String| name.bytes().all(|b| b.is_ascii_alphanumeric() || b"._-".contains(&b));
     let names: Vec<&String> = names.iter().filter(plain).collect();
@@ -21,7 +21,7 @@ pub fn script(mut command: Command, names: &[String], shell: Shell) -> String {
         .filter(|sub| sub.get_arguments().any(|argument| argument.get_id() == SCENE))
         .map(|sub| sub.get_name().to_owned())
         .collect();
-    // Bash goes on to files by itself where no name fits.
+    // Bash offers files by itself if no name fits.
     if shell == Shell::Bash {
         for taker in &takers {
             let names = PossibleValuesParser::new(names.iter().copied());
@@ -52,7 +52,7 @@ pub fn script(mut command: Command, names: &[String], shell: Shell) -> String {
     }
 }
 
-/// Zsh's script with names beside the files that it offers for a scene.
+/// Zsh's script with names in addition to files for a scene.
 fn names_or_files(script: &str, names: &str) -> String {
     let offered = format!(":{{_alternative \"scenes:scene:({names})\" \"files:file:_files\"}}' \\");
     let line = |line: &str| match line.strip_suffix(":_files' \\") {

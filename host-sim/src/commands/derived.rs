@@ -1,4 +1,4 @@
-//! What `check` says of bodies whose numbers are not written: links, shapes, tensors with products.
+//! Derived values of bodies given by links, shapes or tensors with products of inertia, for `check`.
 //!
 //! `scene => mass, principal inertia, by how much the principal axes are turned`.
 
@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::terminal::Look;
 
-/// What came of a body that is given by a link, a shape or a tensor with products.
+/// The derived values of a body given by a link, a shape or a tensor with products of inertia.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DerivedCheck {
     /// Its name.
@@ -21,7 +21,7 @@ pub struct DerivedCheck {
     pub mass: f64,
     /// \[kg·m²\] principal inertia.
     pub inertia: [f64; 3],
-    /// \[°\] by how much its axes are turned against those that it is written in: to its principal ones.
+    /// \[°\] rotation from the given axes to the principal axes.
     pub turned_degrees: f64,
 }
 

@@ -23,16 +23,16 @@ use thiserror::Error;
 
 use crate::arguments::{SceneArgument, names};
 
-/// What is exported, and where to.
+/// The exported scene and the destination.
 #[derive(Clone, Debug, Args)]
 pub struct ExportArguments {
     /// The scene
     #[command(flatten)]
     pub scene: SceneArgument,
-    /// What is exported of it
+    /// The exported parts
     #[command(flatten)]
     pub options: ExportOptions,
-    /// Write to this file, whole or not at all, instead of to standard output
+    /// Write to this file, atomically, instead of to standard output
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
 }
@@ -49,11 +49,11 @@ pub struct ExportOptions {
     /// Newton iterations per step of the dbd schemes, at most 8 [default: 0]
     #[arg(long, value_name = "N")]
     pub newton: Option<u32>,
-    /// What is left per step of a vibration that it does not resolve, of generalized-alpha: 0 to 0.8
-    /// [default: 0.5]
+    /// Spectral radius of generalized-alpha at infinite frequency, 0 to 0.8: the fraction of an unresolved
+    /// vibration that remains per step [default: 0.5]
     #[arg(long, value_name = "RHO", allow_hyphen_values = true)]
     pub rho: Option<f64>,
-    /// How dampers act [default: the scheme's own]
+    /// Damping method [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>())]
     pub damping: Option<DampingName>,
     /// Step, e.g. 20us [default: the scene's, else the advised one]
@@ -73,8 +73,8 @@ pub enum ExportError {
     /// No step fits the scene.
     #[error(transparent)]
     Step(#[from] PlanError),
-    /// The file holds something else.
-    #[error("{} holds what host-sim has not exported", file.display())]
+    /// The file has other contents.
+    #[error("{} was not written by host-sim export", file.display())]
     Taken {
         /// The file.
         file: PathBuf,
@@ -84,7 +84,7 @@ pub enum ExportError {
     Write {
         /// The file.
         file: PathBuf,
-        /// Why; part of the message and therefore not a source, which would say it twice.
+        /// The reason; part of the message and therefore not a source, which would repeat it.
         reason: io::Error,
     },
 }
@@ -95,7 +95,9 @@ impl Diagnostic for ExportError {
             Self::Scheme(error) => Some(Box::new(error.help())),
             Self::Plant(error) => error.help(),
             Self::Step(error) => error.help(),
-            Self::Taken { .. } => Some(Box::new("--out takes another name, or remove that file")),
+            Self::Taken { .. } => {
+                Some(Box::new("choose another file with --out, or remove that one"))
+            }
             Self::Write { .. } => None,
         }
     }
@@ -104,7 +106,7 @@ impl Diagnostic for ExportError {
 /// The source of a scene's const model and its plant, in f64 and f32 where no precision is named.
 ///
 /// # Errors
-/// [`ExportError`], but for those of files.
+/// [`ExportError`], except for those of files.
 pub fn export(scene: &Scene, options: &ExportOptions) -> Result<String, ExportError> {
     let damping = options.damping.map(DampingName::name);
     let scheme = ExportScheme::named(options.scheme.name(), options.newton, damping)?;
@@ -135,20 +137,20 @@ pub fn export(scene: &Scene, options: &ExportOptions) -> Result<String, ExportEr
 /// Writes exported source to a file, in place of an older one.
 ///
 /// # Errors
-/// [`ExportError::Taken`] where the file is none that was exported, [`ExportError::Write`].
+/// [`ExportError::Taken`] if the file was not exported by this program, [`ExportError::Write`].
 pub fn write(file: &Path, text: &str) -> Result<(), ExportError> {
-    // A device, which looks empty, takes no other file's name either.
+    // A device, which seems empty, is not replaced either.
     if file.exists() && !(file.is_file() && is_exported(file)) {
         return Err(ExportError::Taken { file: file.to_owned() });
     }
     write_at(file, text).map_err(|reason| ExportError::Write { file: file.to_owned(), reason })
 }
 
-/// Whether a file begins as exported source does; an empty one holds nothing to lose.
+/// Whether a file begins as exported source does; an empty file may be replaced.
 fn is_exported(file: &Path) -> bool {
     let Ok(content) = std::fs::File::open(file) else { return false };
     let mut line = Vec::new();
-    // Enough for the head of any name.
+    // Long enough for the header with any name.
     let read = io::Read::take(io::BufReader::new(content), 4096).read_until(b'\n', &mut line);
     read.is_ok_and(|count| count == 0 || line.starts_with(HEAD.as_bytes()))
 }
@@ -188,7 +190,7 @@ impl ExportPrecision {
 mod tests {
     use super::*;
 
-    /// What steps on the PC can be exported, and nothing else.
+    /// Exactly the methods that run on the PC can be exported.
     #[test]
     fn a_plant_has_the_schemes_that_run_on_the_pc() {
         for scheme in SchemeName::ALL {

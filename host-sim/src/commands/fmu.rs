@@ -21,7 +21,7 @@ use thiserror::Error;
 use crate::arguments::{SceneArgument, names};
 use crate::terminal::Found;
 
-/// What becomes an FMU, and where.
+/// The exported scene and the destination.
 #[derive(Clone, Debug, Args)]
 pub struct FmuArguments {
     /// The scene
@@ -36,11 +36,11 @@ pub struct FmuArguments {
     /// Newton iterations per step of the dbd schemes, at most 8 [default: 0]
     #[arg(long, value_name = "N")]
     pub newton: Option<u32>,
-    /// What is left per step of a vibration that it does not resolve, of generalized-alpha: 0 to 0.8
-    /// [default: 0.5]
+    /// Spectral radius of generalized-alpha at infinite frequency, 0 to 0.8: the fraction of an unresolved
+    /// vibration that remains per step [default: 0.5]
     #[arg(long, value_name = "RHO", allow_hyphen_values = true)]
     pub rho: Option<f64>,
-    /// How dampers act [default: the scheme's own]
+    /// Damping method [default: the scheme's own]
     #[arg(long, value_parser = names::<DampingName>())]
     pub damping: Option<DampingName>,
     /// Precision
@@ -49,10 +49,10 @@ pub struct FmuArguments {
     /// Step, e.g. 20us [default: the scene's, else the advised one]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub step: Option<Time>,
-    /// The file, written whole or not at all [default: SCENE.fmu]
+    /// Write to this file, atomically [default: SCENE.fmu]
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
-    /// The library that goes into it, as often as there are systems [default: the one beside host-sim]
+    /// Include this library; may be repeated, once per system [default: the one next to host-sim]
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub library: Vec<PathBuf>,
 }
@@ -75,15 +75,15 @@ pub enum FmuError {
     #[error(transparent)]
     Archive(#[from] ArchiveError),
     /// The library is not there.
-    #[error("there is no library {}: {reason}", file.display())]
+    #[error("cannot read the library {}: {reason}", file.display())]
     Library {
         /// Where it was looked for.
         file: PathBuf,
         /// Why not.
         reason: io::Error,
     },
-    /// The file holds something else.
-    #[error("{} holds what is no FMU", file.display())]
+    /// The file has other contents.
+    #[error("{} is not an FMU", file.display())]
     Taken {
         /// The file.
         file: PathBuf,
@@ -93,7 +93,7 @@ pub enum FmuError {
     Write {
         /// The file.
         file: PathBuf,
-        /// Why; part of the message and therefore not a source, which would say it twice.
+        /// The reason; part of the message and therefore not a source, which would repeat it.
         reason: io::Error,
     },
 }
@@ -103,9 +103,11 @@ impl Diagnostic for FmuError {
         match self {
             Self::Archive(error) => error.help(),
             Self::Library { .. } => Some(Box::new(
-                "cargo build --release -p dbd-fmu makes it beside host-sim; --library takes another place",
+                "build it next to host-sim with cargo build --release -p dbd-fmu, or give its path with --library",
             )),
-            Self::Taken { .. } => Some(Box::new("--out takes another name, or remove that file")),
+            Self::Taken { .. } => {
+                Some(Box::new("choose another file with --out, or remove that one"))
+            }
             Self::Write { .. } => None,
         }
     }
@@ -133,7 +135,7 @@ pub fn fmu(found: &Found, arguments: &FmuArguments) -> Result<String, FmuError> 
         FmiVersion::Two => (Fmi::Two, "2.0"),
         FmiVersion::Three => (Fmi::Three, "3.0"),
     };
-    // What is wrong with the scene is said before what is wrong with the place.
+    // Errors in the scene are reported before errors of the file.
     archive(blueprint.clone(), settings.clone(), fmi, &[])?;
     let libraries = libraries(&arguments.library)?;
     let fmu = archive(blueprint, settings, fmi, &libraries)?;
@@ -153,7 +155,7 @@ pub fn fmu(found: &Found, arguments: &FmuArguments) -> Result<String, FmuError> 
     ))
 }
 
-/// \[byte\] no library of an FMU has this size.
+/// \[byte\] larger than any library of an FMU.
 const MAX_LIBRARY: u64 = 1 << 30;
 
 /// The library that cargo built with this program; of an installed program the one beside it.
@@ -174,13 +176,13 @@ fn libraries(files: &[PathBuf]) -> Result<Vec<Library>, FmuError> {
 }
 
 fn write(file: &Path, bytes: &[u8]) -> Result<(), FmuError> {
-    // A device, which looks empty, takes no other file's name either.
+    // A device, which seems empty, is not replaced either.
     if file.exists() && !(file.is_file() && is_archive(file)) {
         return Err(FmuError::Taken { file: file.to_owned() });
     }
     let write = || {
         let name = file.file_name().and_then(|name| name.to_str());
-        let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
+        let name = name.ok_or_else(|| io::Error::other("it is not a file name"))?;
         let folder = file.parent().filter(|folder| *folder != Path::new(""));
         let mut pending = PendingFile::create(folder.unwrap_or(Path::new(".")), name)?;
         pending.write_all(bytes)?;
@@ -189,7 +191,7 @@ fn write(file: &Path, bytes: &[u8]) -> Result<(), FmuError> {
     write().map_err(|reason| FmuError::Write { file: file.to_owned(), reason })
 }
 
-/// Whether a file begins as an archive does; an empty one holds nothing to lose.
+/// Whether a file begins as an archive does; an empty file may be replaced.
 fn is_archive(file: &Path) -> bool {
     let mut head = Vec::new();
     let read = File::open(file).and_then(|content| content.take(4).read_to_end(&mut head));

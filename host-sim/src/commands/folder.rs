@@ -16,11 +16,11 @@ use thiserror::Error;
 
 use crate::terminal::SceneFile;
 
-/// Files of a run, of a survey; the last of each says that the others are there, and whose they are.
+/// Files of a run and of a trade-off study; the last of each marks the set complete and names its scene.
 const OF_A_RUN: [&str; 3] = ["trace.csv", "report.html", "summary.json"];
 const OF_A_SURVEY: [&str; 5] =
     ["trade.csv", "trade.svg", "trade-cortex-m4f.svg", "trade.html", "trade.json"];
-/// Files of `modes`, the last again saying whose they are.
+/// Files of `modes`; the last again names the scene.
 const OF_MODES: [&str; 6] =
     ["modes.csv", "modes.html", "mass.mtx", "stiffness.mtx", "damping.mtx", "modes.json"];
 
@@ -43,11 +43,11 @@ pub enum FolderError {
     Unwritable {
         /// The folder.
         folder: PathBuf,
-        /// Why; part of the message and therefore not a source, which would say it twice.
+        /// The reason; part of the message and therefore not a source, which would repeat it.
         reason: io::Error,
     },
     /// It holds the results of another scene.
-    #[error("{} holds the results of another scene: {other}", folder.display())]
+    #[error("{} contains the results of another scene: {other}", folder.display())]
     Taken {
         /// The folder.
         folder: PathBuf,
@@ -60,18 +60,18 @@ impl Diagnostic for FolderError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         Some(Box::new(match self {
             Self::Taken { .. } => {
-                "name another folder with --out DIR, or replace those results with --overwrite"
+                "choose another folder with --out DIR, or replace those results with --overwrite"
             }
             Self::Unwritable { reason, .. } if reason.kind() == io::ErrorKind::InvalidInput => {
                 "results lie in a folder named after the scene's file, or by its `name` where it \
                  came from standard input: change that"
             }
-            Self::Unwritable { .. } => "name another folder with --out DIR",
+            Self::Unwritable { .. } => "choose another folder with --out DIR",
         }))
     }
 }
 
-/// What a file of results says of its scene. Those of earlier versions hold its name only.
+/// The scene as a results file records it. Earlier versions recorded only its name.
 #[derive(Deserialize)]
 struct Owner {
     scene: String,
@@ -107,11 +107,11 @@ impl Destination {
         Ok(folder)
     }
 
-    /// Sees that a folder holds no results of another scene, or nothing of them is left where they
+    /// Ensures that a folder has no results of another scene; removes them if they
     /// are to be replaced.
     ///
     /// # Errors
-    /// Where it holds such, or they cannot be removed.
+    /// If it has such results, or they cannot be removed.
     pub fn claim(&self, folder: &Path, scene: &str) -> Result<(), FolderError> {
         let failed = |reason| FolderError::Unwritable { folder: folder.to_owned(), reason };
         for name in NAMING {
@@ -137,7 +137,7 @@ impl Owner {
     /// Whether it is the scene of this name from this file, changed since or not.
     fn is_this(&self, scene: &str, file: &SceneFile) -> bool {
         let Some(place) = &self.scene_file else { return self.scene == scene };
-        // A copy is the same scene.
+        // A copy counts as the same scene.
         if *place == file.place || self.scene_hash.as_ref() == Some(&file.hash) {
             return true;
         }
@@ -147,9 +147,9 @@ impl Owner {
     }
 }
 
-/// Removes what commands leave in a folder; what else lies there stays.
+/// Removes the files that commands write into a folder; other files remain.
 fn clear(folder: &Path) -> io::Result<()> {
-    // What says that the others are there goes first.
+    // The file that marks the set complete is removed first.
     for name in NAMING {
         match fs::remove_file(folder.join(name)) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),

@@ -1,6 +1,6 @@
-//! `host-sim run --golden`: a run beside a golden file, or the file written where that is asked for.
+//! `host-sim run --golden`: a run compared with a golden file, or the file written if requested.
 //!
-//! `(file, bands, blessing), samples => verdict`. What does not go with the run is found before it begins.
+//! `(file, bands, blessing), samples => verdict`. A file of another run is reported before the run begins.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -19,26 +19,26 @@ use thiserror::Error;
 use crate::report::{GoldenOutcome, NotGolden};
 use crate::simulate::Sample;
 
-/// What a run is compared with.
+/// The reference of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GoldenOptions {
     /// The golden file.
     pub file: PathBuf,
-    /// How far the run may be off, by whatever method; bit for bit where `None`.
+    /// Permitted deviations, for any method; bit for bit if `None`.
     pub bands: Option<BandList>,
     /// Whether the file is written.
     pub blessing: Blessing,
 }
 
-/// Why a run has nothing to be compared with.
+/// Why a run cannot be compared.
 #[derive(Debug, Error, Diagnostic)]
 pub enum GoldenRefusal {
     /// The file is missing, unreadable, damaged or of another run.
     #[error(transparent)]
     File(#[from] GoldenError),
     /// The file is to be written, and bands are stated.
-    #[error("a golden file is not blessed with --golden-band")]
-    #[diagnostic(help("bless the run that the file is of, without --golden-band"))]
+    #[error("--golden-band cannot be used when a golden file is written (DBD_BLESS=golden)")]
+    #[diagnostic(help("write the file without --golden-band"))]
     Bands,
     /// The run cannot be recorded.
     #[error(transparent)]
@@ -49,7 +49,7 @@ pub enum GoldenRefusal {
     Plant(#[from] PlantError),
 }
 
-/// A run under way beside its golden file.
+/// A run in progress with its golden file.
 pub struct GoldenWatch<'o> {
     options: &'o GoldenOptions,
     recording: Recording,
@@ -64,7 +64,7 @@ impl GoldenOptions {
         }
     }
 
-    /// Begins beside a run: reads the file and compares what it is of.
+    /// Starts the comparison of a run: reads the file and compares its header.
     ///
     /// # Errors
     /// [`GoldenRefusal`]; nothing was written then.
@@ -121,12 +121,12 @@ impl GoldenWatch<'_> {
     }
 }
 
-/// How to find the very step, where it lies between two samples.
+/// Instructions for finding the exact step between two samples.
 fn finer(error: &GoldenError, plan: &Plan, called: &str) -> Option<String> {
     let GoldenError::Different { mismatch, .. } = error else { return None };
     let Mismatch::Difference(found) = &**mismatch else { return None };
     if found.beyond.is_some() {
-        // By another method every step differs.
+        // With another method every step differs.
         return None;
     }
     let equal = found.equal.filter(|equal| equal + 1 < found.step)?;

@@ -24,7 +24,7 @@ use thiserror::Error;
 
 use crate::terminal::Look;
 
-/// Why nothing ran, or a run ended early.
+/// Why a run did not start or ended early.
 #[derive(Debug, Error, Diagnostic)]
 pub enum HilError {
     /// The scene has no such method or step.
@@ -35,9 +35,9 @@ pub enum HilError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plant(#[from] PlantError),
-    /// A frame does not hold its inputs or sensors.
+    /// Its inputs or sensors do not fit into a frame.
     #[error(transparent)]
-    #[diagnostic(help("remove read-outs or inputs that neither end needs"))]
+    #[diagnostic(help("remove unused read-outs or inputs"))]
     TooMany(#[from] TooMany),
     /// The plant at the port is another one.
     #[error("{error}")]
@@ -45,7 +45,7 @@ pub enum HilError {
     Identity {
         /// The message.
         error: String,
-        /// The plant's identity in words.
+        /// The plant's identity as text.
         plant: String,
         /// The model's.
         model: String,
@@ -53,7 +53,7 @@ pub enum HilError {
     /// The port does not open.
     #[error(transparent)]
     #[diagnostic(help(
-        "is the other program running, and does it listen? --patience waits longer"
+        "check that the other program is running and listening; --patience sets a longer wait"
     ))]
     Port(#[from] PortError),
     /// The controller failed.
@@ -71,14 +71,14 @@ pub enum HilError {
     Serve(ServeError),
     /// The trace exists.
     #[error("{} exists", .0.display())]
-    #[diagnostic(help("--overwrite replaces it, or --trace takes another name"))]
+    #[diagnostic(help("replace it with --overwrite, or choose another file with --trace"))]
     Taken(PathBuf),
     /// The trace cannot be written.
     #[error("cannot write {}: {reason}", file.display())]
     Trace {
         /// The file.
         file: PathBuf,
-        /// Why; part of the message and therefore not a source, which would say it twice.
+        /// The reason; part of the message and therefore not a source, which would repeat it.
         reason: std::io::Error,
     },
     /// Bits differ.
@@ -92,7 +92,7 @@ pub enum HilError {
     Nothing,
     /// The plant failed.
     #[error("the plant failed at step {0}")]
-    #[diagnostic(help("`host-sim run` says why; the inputs are in the trace"))]
+    #[diagnostic(help("`host-sim run` reports the reason; the trace contains the inputs"))]
     Failed(u64),
 }
 
@@ -135,7 +135,7 @@ impl From<ServeError> for HilError {
     }
 }
 
-/// An identity in words.
+/// An identity as text.
 fn words(identity: &Identity) -> String {
     let Identity { scene, scheme, precision, step, inputs, outputs, fingerprint } = identity;
     let fingerprint: String = fingerprint.iter().map(|byte| format!("{byte:02x}")).collect();
@@ -153,14 +153,14 @@ pub fn plant_of(scene: &Scene, method: &Method, step: f64) -> Result<HostPlant, 
     Ok(HostPlant::new(scene, plant(scene, method, step)?)?)
 }
 
-/// What sets the inputs, as the command line names it.
+/// The source of the inputs, as given on the command line.
 #[derive(Clone, Debug)]
 pub struct ControllerChoice {
     /// `zero`, `noise[:AMPLITUDE[:SEED]]` or a command.
     pub name: String,
-    /// How lines to a command are written.
+    /// Format of the lines to a command.
     pub format: Format,
-    /// How long a command may take for an answer.
+    /// Time limit of a command's answer.
     pub limit: Duration,
 }
 
@@ -187,7 +187,7 @@ impl ControllerChoice {
     }
 }
 
-/// Drives a plant at a port; how it went, and why it ended early.
+/// Drives a plant at a port; returns the report, and the error if the run ended early.
 ///
 /// # Errors
 /// [`HilError`] before the run begins; the second of the pair after it.
@@ -220,7 +220,7 @@ pub fn run_controller(
     }
 }
 
-/// Serves a plant at a port until a controller says goodbye.
+/// Serves a plant at a port until a controller disconnects.
 ///
 /// # Errors
 /// [`HilError`].
@@ -269,7 +269,7 @@ impl Trace {
     }
 }
 
-/// What people read of a run.
+/// The report of a run for people.
 #[must_use]
 pub fn report_text(report: &Report, mode: Mode, look: Look) -> String {
     let ms = |seconds: f64| format!("{} ms", significant(seconds * 1e3, 3));
@@ -289,14 +289,14 @@ pub fn report_text(report: &Report, mode: Mode, look: Look) -> String {
         (
             "recovered",
             format!(
-                "port opened again {}, state taken from the plant {}, given back to it {}",
+                "port reopened {}, state read from the plant {}, restored to it {}",
                 report.reconnected, report.synchronised, report.restored
             ),
         ),
         (
             "latency",
             format!(
-                "{} frames: least {}, 50 % {}, 90 % {}, 99 % {}, 99.9 % {}, most {}",
+                "{} frames: minimum {}, 50 % {}, 90 % {}, 99 % {}, 99.9 % {}, maximum {}",
                 latency.count,
                 ms(latency.least),
                 ms(latency.p50),
@@ -321,7 +321,7 @@ pub fn report_text(report: &Report, mode: Mode, look: Look) -> String {
     look.table(&rows)
 }
 
-/// What people read of a plant that was served.
+/// The report of a served plant for people.
 #[must_use]
 pub fn served_text(served: &Served, look: Look) -> String {
     look.table(&[
@@ -334,7 +334,7 @@ pub fn served_text(served: &Served, look: Look) -> String {
 /// Statistics in a line.
 fn counted(counts: &Statistics) -> String {
     let mut text = format!(
-        "{} sent, {} good, {} damaged, {} late or repeated by the line, {} missing, {} refused, {} asked again",
+        "{} sent, {} good, {} damaged, {} late or repeated by the line, {} missing, {} refused, {} requested again",
         counts.sent,
         counts.good,
         counts.bad,
@@ -345,7 +345,7 @@ fn counted(counts: &Statistics) -> String {
     );
     let more = [
         (counts.version, "of another version"),
-        (counts.foreign, "of no session"),
+        (counts.foreign, "of another session"),
         (counts.lost, "bytes lost"),
         (counts.ticks, "ticks"),
         (counts.overruns, "overruns"),

@@ -16,22 +16,22 @@ use dbd_scene::{Assembled, OpenJoint, Scene, SceneError};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
 
-/// Takes all kinds.
+/// Selects all kinds.
 const ALL: &str = "all";
 
-/// What is imported, how, and where to.
+/// The imported file, the settings and the destination.
 #[derive(Clone, Debug, Args)]
 pub struct ImportArguments {
     /// MJCF, MuJoCo's XML, or URDF
     #[arg(value_hint = ValueHint::FilePath)]
     pub file: PathBuf,
-    /// Write to this file, whole or not at all, instead of to standard output
+    /// Write to this file, atomically, instead of to standard output
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
-    /// Leave out what has no counterpart, by its kind; as often as wanted
+    /// Omit elements of this kind that have no counterpart; may be repeated
     #[arg(long, value_name = "KIND", value_parser = kinds())]
     pub ignore: Vec<Ignored>,
-    /// Print what has no counterpart, with line and size, and write nothing
+    /// List elements without a counterpart, with line and size, and write nothing
     #[arg(long, conflicts_with = "out")]
     pub list: bool,
     /// Stiffness of each spring of a joint, N/m
@@ -43,19 +43,19 @@ pub struct ImportArguments {
     /// Size of all joints, m [default: each twice the radius of gyration of the smaller of its bodies]
     #[arg(long, value_name = "m", value_parser = above_zero, allow_hyphen_values = true)]
     pub span: Option<f64>,
-    /// By how much a loop may stay open, m [default: 1e-4 of the mechanism's size]
+    /// Largest permitted gap of a loop, m [default: 1e-4 of the mechanism's size]
     #[arg(long, value_name = "m", value_parser = above_zero, allow_hyphen_values = true)]
     pub tolerance: Option<f64>,
-    /// Fraction of a body's mass that a body between two of its joints takes where no joint says them, e.g. 0.01
+    /// Fraction of a body's mass given to the bodies between its joints if the file states none, e.g. 0.01
     #[arg(long, value_name = "FRACTION", value_parser = fraction, allow_hyphen_values = true)]
     pub carriers: Option<f64>,
-    /// What becomes of a body without a joint
+    /// Treatment of a body without a joint
     #[arg(long, value_enum, default_value = "merge")]
     pub weld: WeldArgument,
-    /// Begin at this keyframe of the file [default: the pose of its bodies]
+    /// Start at this keyframe of the file [default: the pose of its bodies]
     #[arg(long, value_name = "NAME")]
     pub keyframe: Option<String>,
-    /// Simulated time that the scene states, e.g. 0.5s
+    /// Duration to write into the scene, e.g. 0.5s
     #[arg(long, value_name = "TIME", default_value = "1s", allow_hyphen_values = true)]
     pub duration: Time,
     /// The scene's name [default: the model's]
@@ -66,50 +66,51 @@ pub struct ImportArguments {
 /// One kind, or all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ignored {
-    /// Whatever has no counterpart.
+    /// All kinds.
     All,
-    /// What is of this kind.
+    /// One kind.
     One(Kind),
 }
 
-/// What becomes of a body without a joint.
+/// Treatment of a body without a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum WeldArgument {
-    /// It is one with its parent
+    /// Merge it with its parent
     Merge,
-    /// It is a body of its own with a fixed joint
+    /// Keep it as a separate body with a fixed joint
     Fixed,
 }
 
 fn kinds() -> impl TypedValueParser<Value = Ignored> {
     let kinds = Kind::ALL.iter().map(|kind| PossibleValue::new(kind.name()).help(kind.summary()));
-    let all = std::iter::once(PossibleValue::new(ALL).help("whatever has no counterpart"));
+    let all = std::iter::once(PossibleValue::new(ALL).help("all kinds"));
     PossibleValuesParser::new(kinds.chain(all)).try_map(|name| {
         let kind = Kind::ALL.iter().find(|kind| kind.name() == name);
         match (kind, name.as_str()) {
             (Some(kind), _) => Ok(Ignored::One(*kind)),
             (None, ALL) => Ok(Ignored::All),
-            (None, _) => Err("there is no such kind"),
+            (None, _) => Err("unknown kind"),
         }
     })
 }
 
 fn number(text: &str) -> Result<f64, String> {
     let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    number.ok_or_else(|| "it is no finite number".to_owned())
+    number.ok_or_else(|| "expected a finite number".to_owned())
 }
 
 fn above_zero(text: &str) -> Result<f64, String> {
-    number(text).and_then(|n| if n > 0.0 { Ok(n) } else { Err("it is not above 0".into()) })
+    number(text).and_then(|n| if n > 0.0 { Ok(n) } else { Err("expected a number above 0".into()) })
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {
-    number(text).and_then(|n| if n >= 0.0 { Ok(n) } else { Err("it is below 0".into()) })
+    number(text)
+        .and_then(|n| if n >= 0.0 { Ok(n) } else { Err("expected a number of at least 0".into()) })
 }
 
 fn fraction(text: &str) -> Result<f64, String> {
     number(text).and_then(|n| {
-        if n > 0.0 && n < 1.0 { Ok(n) } else { Err("it is not between 0 and 1".into()) }
+        if n > 0.0 && n < 1.0 { Ok(n) } else { Err("expected a number between 0 and 1".into()) }
     })
 }
 
@@ -119,16 +120,16 @@ pub enum ImportError {
     /// The file is refused.
     #[error(transparent)]
     Import(#[from] dbd_import::ImportError),
-    /// The scene that it becomes is refused.
-    #[error("the scene that {} becomes is refused: {error}", file.display())]
+    /// The resulting scene is invalid.
+    #[error("invalid scene from {}: {error}", file.display())]
     Scene {
         /// The file.
         file: PathBuf,
-        /// Why; part of the message and therefore not a source, which would say it twice.
+        /// The reason; part of the message and therefore not a source, which would repeat it.
         error: SceneError,
     },
-    /// A loop does not close; the scene is handed on even so.
-    #[error("a loop of {} stays open by {gap:.1e} m at {joint}: its scene does not load", file.display())]
+    /// A loop does not close; the scene is returned nevertheless.
+    #[error("a loop of {} remains open by {gap:.1e} m at {joint}: its scene does not load", file.display())]
     Open {
         /// The file.
         file: PathBuf,
@@ -137,8 +138,8 @@ pub enum ImportError {
         /// \[m\] by how much, an angle times the length of `[assemble]` included.
         gap: f64,
     },
-    /// The file to write holds something else.
-    #[error("{} holds what host-sim has not imported", file.display())]
+    /// The output file has other contents.
+    #[error("{} was not written by host-sim import", file.display())]
     Taken {
         /// The file.
         file: PathBuf,
@@ -148,7 +149,7 @@ pub enum ImportError {
     Write {
         /// The file.
         file: PathBuf,
-        /// Why; part of the message and therefore not a source, which would say it twice.
+        /// The reason; part of the message and therefore not a source, which would repeat it.
         reason: io::Error,
     },
 }
@@ -158,11 +159,13 @@ impl Diagnostic for ImportError {
         match self {
             Self::Import(error) => Diagnostic::help(error),
             Self::Scene { error, .. } => Diagnostic::help(error),
-            Self::Taken { .. } => Some(Box::new("--out takes another name, or remove that file")),
+            Self::Taken { .. } => {
+                Some(Box::new("choose another file with --out, or remove that one"))
+            }
             Self::Write { .. } => None,
             Self::Open { gap, .. } => Some(Box::new(format!(
-                "the scene is written: correct its points or poses, or allow the gap with \
-                 `--tolerance {:.0e}`, in the scene with `tolerance` in [assemble]",
+                "correct the points or poses in the written scene, or allow the gap with \
+                 `--tolerance {:.0e}`, or in the scene with `tolerance` in [assemble]",
                 2.0 * gap
             ))),
         }
@@ -219,20 +222,20 @@ pub struct Import {
     pub open: Option<ImportError>,
 }
 
-/// \[m\] no mechanism is open by so much.
+/// \[m\] larger than any gap.
 const ANY_GAP: f64 = 1e9;
 
 /// Imports a file, and loads what it becomes.
 ///
 /// # Errors
-/// [`ImportError`], but for those of files that are written and for [`ImportError::Open`].
+/// [`ImportError`], except for errors of the output file and [`ImportError::Open`].
 pub fn import(arguments: &ImportArguments) -> Result<Import, ImportError> {
     let options = arguments.options();
     let imported = dbd_import::import(&arguments.file, &options)?;
     let called = format!("{} as a scene", arguments.file.display());
     match Scene::parse(&imported.scene, &called) {
         Ok(scene) => Ok(Import { closed: closed(&scene), imported, open: None }),
-        // A scene that loads once any gap is allowed is open and nothing else.
+        // A scene that loads with any gap allowed has no other error.
         Err(error) => {
             let file = arguments.file.clone();
             let options = Options { tolerance: Some(ANY_GAP), ..options };
@@ -267,12 +270,12 @@ fn closed(scene: &Scene) -> Option<String> {
     let before = assembled.open.iter().map(|open| size(open, assembled)).fold(0.0, f64::max);
     let (joint, gap) = worst(scene)?;
     Some(format!(
-        "loops open by up to {before:.1e} m at the file's pose are closed; {joint} keeps the largest \
-         gap, {gap:.1e} m"
+        "loops open by up to {before:.1e} m at the file's pose were closed; the largest remaining gap, at {joint}, \
+         is {gap:.1e} m"
     ))
 }
 
-/// What in a file has no counterpart, one line each.
+/// The elements of a file without a counterpart, one per line.
 ///
 /// # Errors
 /// Where the file is refused for another reason.
@@ -285,20 +288,20 @@ pub fn list(arguments: &ImportArguments) -> Result<String, ImportError> {
 /// Writes an imported scene to a file, in place of an older one.
 ///
 /// # Errors
-/// [`ImportError::Taken`] where the file is none that was imported, [`ImportError::Write`].
+/// [`ImportError::Taken`] if the file was not imported by this program, [`ImportError::Write`].
 pub fn write(file: &Path, text: &str) -> Result<(), ImportError> {
-    // A device, which looks empty, takes no other file's name either.
+    // A device, which seems empty, is not replaced either.
     if file.exists() && !(file.is_file() && is_imported(file, text)) {
         return Err(ImportError::Taken { file: file.to_owned() });
     }
     write_at(file, text).map_err(|reason| ImportError::Write { file: file.to_owned(), reason })
 }
 
-/// Whether a file begins as an import of the same file does; an empty one holds nothing to lose.
+/// Whether a file begins as an import of the same file does; an empty file may be replaced.
 fn is_imported(file: &Path, text: &str) -> bool {
     let Ok(content) = std::fs::File::open(file) else { return false };
     let mut line = Vec::new();
-    // Enough for the head of any name.
+    // Long enough for the header with any name.
     let read = io::Read::take(io::BufReader::new(content), 4096).read_until(b'\n', &mut line);
     let head = text.split_inclusive('\n').next().unwrap_or_default();
     read.is_ok_and(|count| count == 0 || line == head.as_bytes())

@@ -1,29 +1,29 @@
 //! The commands, each as a function without a terminal.
 //!
-//! - [`list`]: the scenes that ship.
-//! - [`rounding`]: what precisions lose. [`warnings`]: what is probably not meant, in one place for all.
-//! - [`assembled`], [`stability`], [`derived`], [`planar`], [`check`]: what a scene is, without running it.
+//! - [`list`]: the named scenes.
+//! - [`rounding`]: rounding errors. [`warnings`]: all warnings.
+//! - [`assembled`], [`stability`], [`derived`], [`planar`], [`check`]: properties of a scene, without running it.
 //! - [`picture`]: the mechanism as an SVG. [`mod@write`]: a scene in its long form.
-//! - [`watch`]: a file is looked at again each time it has changed.
-//! - [`folder`]: where results go.
-//! - [`golden`]: a run beside a golden file.
-//! - [`modes`]: how a scene vibrates about its pose at t = 0.
-//! - [`mod@relax`]: where a scene rests under its loads.
+//! - [`watch`]: a file is checked again after each change.
+//! - [`folder`]: the folder of results.
+//! - [`golden`]: a run compared with a golden file.
+//! - [`modes`]: the vibration modes of a scene about its pose at t = 0.
+//! - [`mod@relax`]: the static equilibrium of a scene under its loads.
 //! - [`mode_table`]: the modes of a scene as a table, a page and matrices.
-//! - [`surveyed`]: a survey that lies beside a run's results.
+//! - [`surveyed`]: a trade-off study in the folder of a run's results.
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`sweep`]: many values of a scene, a row per case.
 //! - [`compare`]: two recorded runs in one report.
-//! - [`trade`]: speed against accuracy. [`advise`]: one way for a microcontroller.
-//! - [`mod@reproduce`]: the results of the method's paper, measured again.
+//! - [`trade`]: speed against accuracy. [`advise`]: a method for a microcontroller.
+//! - [`mod@reproduce`]: the reproduced results of the method's paper.
 //! - [`export`]: Rust source of a scene's const model and its plant.
 //! - [`mod@fmu`]: a scene becomes an FMU for other tools.
 //! - [`mod@linearise`]: a scene as a linear system.
 //! - [`hil`]: one end of a line to a microcontroller.
-//! - [`play`]: a page in which scenes run live.
+//! - [`play`]: a page with live scenes.
 //! - [`mod@import`]: another program's file becomes a scene.
-//! - [`schema`]: what a scene file may hold, for editors.
-//! - [`new`]: a project with a plant in firmware, a scene to begin with.
+//! - [`schema`]: the JSON Schema of scene files, for editors.
+//! - [`new`]: new firmware projects, crates of laws and scenes.
 //! - [`completions`]: a script for a shell.
 
 pub mod advise;

@@ -1,4 +1,4 @@
-//! `host-sim modes`: how a scene vibrates about a pose, and which joint makes its fastest mode.
+//! `host-sim modes`: the vibration modes of a scene about a pose, and the joint of the fastest mode.
 //!
 //! `(scene, options) => table; OUT/SCENE/{modes.csv,modes.json,modes.html,mass.mtx,stiffness.mtx,damping.mtx}`.
 
@@ -38,16 +38,16 @@ pub enum ModeTableError {
     Modes(#[from] ModesError),
     /// No joint has the name.
     #[error("the scene has no joint `{name}` to kick; its joints: {known}")]
-    #[diagnostic(help("--kick alone kicks the joint that makes the fastest mode"))]
+    #[diagnostic(help("--kick without a name uses the joint of the fastest mode"))]
     Joint {
         /// What was asked for.
         name: String,
         /// All names.
         known: String,
     },
-    /// The fastest mode is of no joint.
-    #[error("no joint makes the fastest mode, so there is none to kick")]
-    #[diagnostic(help("name one: --kick=JOINT"))]
+    /// The fastest mode does not belong to a joint.
+    #[error("the fastest mode does not belong to a joint, so no joint can be kicked")]
+    #[diagnostic(help("name a joint: --kick=JOINT"))]
     NoJoint,
     /// The kicked scene cannot be run.
     #[error(transparent)]
@@ -67,7 +67,7 @@ pub enum ModeTableError {
 pub struct ModeOptions {
     /// How many of the lowest modes.
     pub count: usize,
-    /// About the pose at which the scene rests.
+    /// Whether about the static equilibrium.
     pub relax: bool,
     /// A joint to kick by the paper's procedure; an empty name is that of the fastest mode.
     pub kick: Option<String>,
@@ -88,26 +88,26 @@ pub struct ModeTable {
     pub pose: &'static str,
     /// \[kg\] of all bodies.
     pub total_mass: f64,
-    /// Where the damping ratios come from.
+    /// The method for the damping ratios.
     pub damping_ratios: RatioSource,
     /// How many modes were found; fewer than six per body of large scenes.
     pub found: usize,
-    /// \[Hz\] frequencies up to here are rounding.
+    /// \[Hz\] frequencies up to this one are rounding errors.
     pub resolution: f64,
     /// The lowest modes.
     pub modes: Vec<ModeRow>,
-    /// What the fastest mode hangs on.
+    /// The cause of the fastest mode.
     pub fastest: Option<Fastest>,
     /// The paper's procedure.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kick: Option<Kick>,
-    /// What the modes do not say.
+    /// Limitations of the modes.
     pub remarks: Vec<String>,
 }
 
 /// The modes of a scene, with the scene about whose pose they are.
 pub struct FoundModes {
-    /// The scene, at rest where that was asked for.
+    /// The scene, in equilibrium if requested.
     pub scene: Scene,
     /// What is printed.
     pub table: ModeTable,
@@ -175,7 +175,7 @@ const HEAD: [&str; 9] = [
 /// Those of the page's table.
 const ON_PAGE: [usize; 4] = [0, 1, 2, 8];
 
-/// Of effective masses what is below this share of the total is rounding, as are such damping ratios.
+/// Effective masses below this fraction of the total are rounding errors, as are such damping ratios.
 const ROUNDING: f64 = 1e-9;
 
 /// Three digits, 0 for rounding against a size.
@@ -225,9 +225,9 @@ impl ModeTable {
         let source = match self.damping_ratios {
             RatioSource::QuadraticEigenproblem => "eigenvalues of the damped system".to_owned(),
             RatioSource::ModalDiagonal => format!(
-                "diagonal of the damping matrix in the undamped modes: of more than {QUADRATIC} bodies, or where the eigenvalues do not converge"
+                "diagonal of the damping matrix in the undamped modes, for more than {QUADRATIC} bodies or if the eigenvalues do not converge"
             ),
-            RatioSource::Undamped => "none: nothing damps".to_owned(),
+            RatioSource::Undamped => "none: the scene has no damping".to_owned(),
         };
         let mut rows = vec![
             ("scene", self.scene.clone()),
@@ -320,8 +320,7 @@ impl FoundModes {
             |name: &str, text: &str| files.write(name, text).map_err(ModeTableError::Write);
         write("modes.csv", &self.table.csv())?;
         write("modes.html", &page::html(&self.page()))?;
-        let freedoms =
-            "six freedoms per body: shifts along the world's axes, turns about the body's own";
+        let freedoms = "six degrees of freedom per body: translations along world axes, rotations about body axes";
         for (name, entries, unit) in [
             ("mass.mtx", &matrices.mass, "kg, kg m^2"),
             ("stiffness.mtx", &matrices.stiffness, "N/m, N, N m"),
@@ -372,7 +371,7 @@ impl FoundModes {
             tables: vec![
                 PageTable {
                     title: "Modes".into(),
-                    // The page is too narrow for all columns; the other files have them.
+                    // The page is too narrow for all columns; the other files contain them.
                     columns: ["mode: f [Hz]", HEAD[2], HEAD[8]].map(str::to_owned).to_vec(),
                     rows: table.modes.iter().map(of_page).collect(),
                 },

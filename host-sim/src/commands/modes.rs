@@ -11,12 +11,12 @@ use dbd_study::modes::{ModesError, modes, remarks};
 /// The lowest modes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LowestModes {
-    /// \[Hz\] ascending; negative where the mode runs away, 0 where nothing holds it.
+    /// \[Hz\] ascending; negative for an unstable mode, 0 for a free one.
     pub frequencies: Vec<f64>,
     /// Of each mode: body by body a shift \[m\] in world axes and a turn \[rad\] about the body's
     /// axes, the largest 1.
     pub motions: Vec<Vec<[f64; 6]>>,
-    /// What they do not say, in sentences.
+    /// Their limitations, in sentences.
     pub remarks: Vec<String>,
 }
 
@@ -35,7 +35,7 @@ pub fn lowest(scene: &Scene, count: usize) -> Result<LowestModes, ModesError> {
 }
 
 impl LowestModes {
-    /// What a page animates.
+    /// The modes for the animation of a page.
     #[must_use]
     pub fn of_page(&self) -> Vec<Mode> {
         let pairs = self.frequencies.iter().zip(&self.motions);

@@ -15,11 +15,11 @@ use thiserror::Error;
 /// Why there is no picture.
 #[derive(Debug, Error)]
 pub enum PictureError {
-    /// Standard output cannot take both.
+    /// Both would go to standard output.
     #[error("--svg - and --json both write to standard output")]
     Both,
-    /// The file holds something else.
-    #[error("{} holds no SVG", file.display())]
+    /// The file has other contents.
+    #[error("{} is not an SVG", file.display())]
     Taken {
         /// The file.
         file: PathBuf,
@@ -29,7 +29,7 @@ pub enum PictureError {
     Write {
         /// The file.
         file: PathBuf,
-        /// Why; part of the message and therefore not a source, which would say it twice.
+        /// The reason; part of the message and therefore not a source, which would repeat it.
         reason: io::Error,
     },
 }
@@ -37,8 +37,10 @@ pub enum PictureError {
 impl Diagnostic for PictureError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         match self {
-            Self::Both => Some(Box::new("--svg FILE writes the picture to a file")),
-            Self::Taken { .. } => Some(Box::new("--svg takes another name, or remove that file")),
+            Self::Both => Some(Box::new("write the picture to a file with --svg FILE")),
+            Self::Taken { .. } => {
+                Some(Box::new("choose another file with --svg, or remove that one"))
+            }
             Self::Write { .. } => None,
         }
     }
@@ -59,9 +61,9 @@ pub fn is_output(file: &Path) -> bool {
 /// Writes the picture of a scene to a file, whole or not at all, in place of an older one.
 ///
 /// # Errors
-/// [`PictureError::Taken`] where the file is no SVG, [`PictureError::Write`].
+/// [`PictureError::Taken`] if the file is not an SVG, [`PictureError::Write`].
 pub fn write(scene: &Scene, file: &Path) -> Result<(), PictureError> {
-    // A device takes no other file's name either.
+    // A device is not replaced either.
     if file.exists() && !(file.is_file() && is_svg(file)) {
         return Err(PictureError::Taken { file: file.to_owned() });
     }
@@ -69,7 +71,7 @@ pub fn write(scene: &Scene, file: &Path) -> Result<(), PictureError> {
         .map_err(|reason| PictureError::Write { file: file.to_owned(), reason })
 }
 
-/// Whether a file begins as a picture does; an empty one holds nothing to lose.
+/// Whether a file begins as a picture does; an empty file may be replaced.
 fn is_svg(file: &Path) -> bool {
     let Ok(content) = std::fs::File::open(file) else { return false };
     let mut head = Vec::new();

@@ -1,21 +1,21 @@
-//! What `check` says of a scene's plane: whether it has one, what that saves, or what leaves it.
+//! The plane of a scene as `check` reports it: whether it exists, its savings, or the elements outside it.
 //!
 //! `scene => plane, freedoms and elements before and in it; what leaves it`.
 
 use dbd_scene::Scene;
 use serde::Serialize;
 
-/// The most departures that are told; the others are counted.
+/// Largest number of reported departures; the others are counted.
 const MOST_TOLD: usize = 5;
 
-/// What is known of a scene's plane.
+/// The plane of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlaneCheck {
-    /// The plane: that in which the scene lies, or that which the least leaves.
+    /// The plane of the scene, or the plane with the fewest departures.
     pub plane: String,
     /// Whether all of the scene stays in it.
     pub planar: bool,
-    /// Whether the scene asks for it: what runs is the planar model then.
+    /// Whether the scene requests it and so runs as the planar model.
     pub asked: bool,
     /// Equations of motion of the planar model: 3 per body. `None` where the scene is not planar.
     pub equations: Option<usize>,
@@ -24,9 +24,9 @@ pub struct PlaneCheck {
     /// The joints and raw elements that are as stiff in it at rest only: the others are the same at
     /// any stretch.
     pub at_rest: usize,
-    /// How many things leave the plane.
+    /// Number of departures from the plane.
     pub departures: usize,
-    /// The first of them: what leaves it, by how much.
+    /// The first departures, each with its size.
     pub leaves: Vec<String>,
 }
 
@@ -62,7 +62,7 @@ impl PlaneCheck {
         }
     }
 
-    /// What people read.
+    /// The report for people.
     pub(crate) fn text(&self) -> String {
         match (self.equations, self.tsdas) {
             (Some(equations), Some(tsdas)) => {

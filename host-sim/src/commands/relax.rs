@@ -12,7 +12,7 @@ use crate::commands::assembled::SettledCheck;
 use crate::commands::write::{self, WriteError};
 use crate::terminal::Look;
 
-/// Why a scene was not brought to rest, or not written.
+/// Why a scene was not settled, or not written.
 #[derive(Debug, Error, Diagnostic)]
 pub enum RelaxError {
     /// It has no equilibrium.
@@ -23,9 +23,9 @@ pub enum RelaxError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Write(#[from] WriteError),
-    /// Two things for standard output.
-    #[error("--out - prints the scene to standard output, and so does --json")]
-    #[diagnostic(help("one of them, or --out FILE"))]
+    /// Both would go to standard output.
+    #[error("--out - and --json both write to standard output")]
+    #[diagnostic(help("use only one of them, or write the scene to a file with --out FILE"))]
     Both,
 }
 
@@ -67,7 +67,7 @@ pub fn relax(scene: &Scene) -> Result<(Scene, Relaxed), Restless> {
     Ok((rest, relaxed))
 }
 
-/// The text of a scene at rest, seen to read back to the same bits.
+/// The text of a scene in equilibrium, verified to read back to the same bits.
 ///
 /// # Errors
 /// [`WriteError`] where it does not.
@@ -76,7 +76,7 @@ pub fn text_at_rest(rest: &Scene, file: &str) -> Result<String, WriteError> {
 }
 
 impl Relaxed {
-    /// What people read.
+    /// The report for people.
     #[must_use]
     pub fn text(&self, look: Look) -> String {
         let two = |one: f64, unit: &str, other: f64, unit_of_other: &str| {
@@ -85,7 +85,7 @@ impl Relaxed {
         look.table(&[
             ("scene", self.scene.clone()),
             ("moved", self.settled.sentence()),
-            ("moved by at most", two(self.largest_distance, "m", self.largest_angle, "rad")),
+            ("largest displacement", two(self.largest_distance, "m", self.largest_angle, "rad")),
             ("residual", two(self.residual_force, "N", self.residual_torque, "N·m")),
         ])
     }

@@ -1,7 +1,7 @@
 //! `host-sim reproduce`: the results of the method's paper, measured again.
 //!
 //! `(items) => findings => OUT/reproduce/{reproduce.html,reproduce.md,reproduce.json,ITEM.csv,ITEM.svg}`; each
-//! finding is kept as it comes, so that an interrupted call goes on where it was and a second one is
+//! finding is stored at once, so that an interrupted call resumes and a second one is
 //! immediate.
 
 use std::io;
@@ -24,7 +24,7 @@ const FOLDER: &str = "reproduce";
 #[derive(Debug, Error, Diagnostic)]
 pub enum ReproduceError {
     /// No item has this name.
-    #[error("the paper has no item `{name}` here; the items: {}", known())]
+    #[error("unknown item `{name}` of the paper; known items: {}", known())]
     #[diagnostic(code(host_sim::reproduce))]
     Unknown {
         /// What was asked for.
@@ -61,13 +61,13 @@ pub fn items(names: &[String], all: bool) -> Result<Vec<&'static Item>, Reproduc
     let of =
         |name: &String| item(name).ok_or_else(|| ReproduceError::Unknown { name: name.clone() });
     let mut items = names.iter().map(of).collect::<Result<Vec<_>, _>>()?;
-    // In the paper's order, each once.
+    // In the paper's order, without duplicates.
     items.sort_by_key(|wanted| ITEMS.iter().position(|item| item.name == wanted.name));
     items.dedup_by_key(|item| item.name);
     Ok(items)
 }
 
-/// Measures items or takes up what is kept of them; `progress` hears an item that is measured. The findings, and the
+/// Measures items or reads their stored findings; `progress` is called with each measured item. The findings, and the
 /// folder of their files.
 ///
 /// # Errors
@@ -101,7 +101,7 @@ pub fn reproduce(
     Ok((findings, folder))
 }
 
-/// What programs read: every finding with its verdict.
+/// The JSON output: every finding with its verdict.
 #[must_use]
 pub fn json(findings: &[Finding]) -> String {
     #[derive(Serialize)]

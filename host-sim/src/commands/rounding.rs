@@ -1,7 +1,6 @@
-//! What rounding does to a scene in a precision other than double: said before a run and after it.
+//! Rounding errors of a scene in a precision other than double, reported before and after a run.
 //!
-//! `(scene, method, step) => sentences`; `(losses, read-outs of a run) => sentences`. Of `warnings.rs`, which
-//! says when.
+//! `(scene, method, step) => sentences`; `(losses, read-outs of a run) => sentences`. Used by `warnings.rs`.
 
 use dbd_kernel::BodyIndex;
 use dbd_kernel::readouts::Readout;
@@ -14,29 +13,29 @@ use dbd_scene::{JointElement, Scene};
 
 use crate::report::ReadoutFigures;
 
-/// Joints that a warning names besides the worst.
+/// Largest number of joints that a warning names besides the worst.
 const NAMED: usize = 4;
 
 /// Schemes composed of several kicks.
 pub(super) const COMPOSED: [&str; 2] = ["pefrl", "blanes-moan-s6"];
 
-/// ω·h with the bound below which the error in single precision has grown to several times its
-/// least on every mechanism of the table in docs/schemes.md.
+/// ω·h with the bound below which the error in single precision is several times its
+/// minimum on every mechanism of the table in docs/schemes.md.
 const SHORTEST: f64 = 0.0125;
 
-/// The same of compositions, which round every part of a step.
+/// The same for compositions, which round every part of a step.
 const SHORTEST_COMPOSED: f64 = 0.03;
 
-/// The same of schemes of first order, whose error falls slowly with the step.
+/// The same for first-order schemes, whose error decreases slowly with the step.
 const SHORTEST_FIRST: f64 = 0.003;
 
-/// \[m\] what `fixed` holds of places and of points of bodies.
+/// \[m\] resolution of positions and body points in `fixed`.
 const FIXED_DIGIT: f64 = 1.0 / (1 << 27) as f64;
 
-/// \[1\] Largest rounding of a point in `fixed`, as a share of the mechanism's size, without a warning.
+/// \[1\] Largest rounding error of a point in `fixed`, relative to the mechanism's size, without a warning.
 const COARSE: f64 = 1e-6;
 
-/// \[1\] Largest noise of a force, as a share of the force, without a warning.
+/// \[1\] Largest noise of a force, relative to the force, without a warning.
 const NOISY: f64 = 0.01;
 
 /// The first of these names, and how many more there are; `None` without any.
@@ -49,7 +48,7 @@ pub(super) fn named(names: impl ExactSizeIterator<Item = String>) -> Option<Stri
     (!names.is_empty()).then(|| names.join(", "))
 }
 
-/// What a precision rounds at a step, as it is known at t = 0.
+/// Rounding errors of a precision and step, as known at t = 0.
 #[must_use]
 pub fn of_step(
     scene: &Scene,
@@ -67,8 +66,8 @@ pub fn of_step(
     [short, slow, small].into_iter().flatten().collect()
 }
 
-/// A step so short that single precision loses more by rounding, step after step, than a shorter
-/// step gains.
+/// A step so short that rounding in single precision outweighs the gain of a shorter
+/// step.
 fn short(frequencies: &Frequencies, method: &Method, step: f64, whose: &str) -> Option<String> {
     let product = frequencies.bound * step;
     let [order, _] = method.orders();
@@ -80,7 +79,7 @@ fn short(frequencies: &Frequencies, method: &Method, step: f64, whose: &str) -> 
     (0.0 < product && product < shortest).then(|| {
         format!(
             "{whose} of {} is short for {} in single precision: ω·h = {}, and below {shortest} rounding \
-             has cost more than a shorter step gains; a longer step is more accurate, or f64",
+             outweighs the gain of a shorter step; use a longer step, which is more accurate, or f64",
             display(step),
             method.scheme_name(),
             significant(product, 3),
@@ -88,14 +87,14 @@ fn short(frequencies: &Frequencies, method: &Method, step: f64, whose: &str) -> 
     })
 }
 
-/// A mechanism so small that the points of its bodies are coarse in fixed point.
+/// A mechanism too small for the resolution of body points in fixed point.
 fn small(scene: &Scene) -> Option<String> {
     let elements = dbd_scene::joint_elements(scene);
     let levers = elements.iter().flat_map(|element| element.moments).map(|m| m.dot(m).sqrt());
     let size = levers.fold(0.0, f64::max);
     (size > 0.0 && 0.5 * FIXED_DIGIT > COARSE * size).then(|| {
         format!(
-            "fixed holds points to {} m, and no lever of a joint is longer than {} m: f64, f32, or lengths in \
+            "fixed resolves points to {} m, and the longest lever arm of a joint is {} m: use f64, f32, or lengths in \
              another unit",
             significant(FIXED_DIGIT, 2),
             significant(size, 3),
@@ -103,8 +102,8 @@ fn small(scene: &Scene) -> Option<String> {
     })
 }
 
-/// Read-outs of forces and accelerations that show what rounding makes of stiff joints: beside what they showed in
-/// a run, or before it beside the weight of all bodies.
+/// Read-outs of forces and accelerations with noise from rounding in stiff joints: relative to their values in
+/// a run, or before it to the weight of all bodies.
 #[must_use]
 pub fn of_noise(
     scene: &Scene,
@@ -156,25 +155,25 @@ pub fn of_noise(
     noisy.sort_by(|a, b| (b.1 / b.2).total_cmp(&(a.1 / a.2)));
     let ((worst, noise, shown, unit), others) = noisy.split_first()?;
     let mut text = format!(
-        "read-out `{worst}` may be off by some {} {unit} or more at any moment, {} {} {unit}",
+        "read-out `{worst}` may have an error of about {} {unit} or more at any time, {} {} {unit}",
         significant(*noise, 1),
-        if figures.is_some() { "where it shows at most" } else { "beside a weight of" },
+        if figures.is_some() { "with a maximum of" } else { "compared with a weight of" },
         significant(*shown, 2),
     );
     if let Some(named) = named(others.iter().map(|(name, ..)| format!("`{name}`"))) {
-        text += &format!(", and so may {named}");
+        text += &format!(", as may {named}");
     }
     Some(
         text + &format!(
-            ": a joint so stiff makes that of the last digit of a position in {}; f64{} or softer joints",
+            ": the joint's stiffness amplifies the last digit of a position in {}; use f64{} or softer joints",
             method.precision_name(),
             if method.precision().is_single() { ", fixed" } else { "" },
         ),
     )
 }
 
-/// \[N\] What the last digits \[m\] of bodies' places make of the stiffness of some elements, in the stiffest of the
-/// world's axes.
+/// \[N\] Force noise from the last digits \[m\] of body positions in some elements, in the stiffest world
+/// axis.
 fn noise<'e>(elements: impl Iterator<Item = &'e JointElement>, places: &[f64]) -> f64 {
     let mut squares = [0.0; 3];
     for element in elements {
@@ -187,7 +186,7 @@ fn noise<'e>(elements: impl Iterator<Item = &'e JointElement>, places: &[f64]) -
     squares.into_iter().fold(0.0, f64::max)
 }
 
-/// Bodies of whose motion single precision lost more than it may.
+/// Bodies that lost more motion in single precision than permitted.
 #[must_use]
 pub fn of_losses(scene: &Scene, method: &Method, losses: &[Loss]) -> Option<String> {
     let (worst, others) = losses.split_first()?;
@@ -195,7 +194,7 @@ pub fn of_losses(scene: &Scene, method: &Method, losses: &[Loss]) -> Option<Stri
         |loss: &Loss| format!("`{}`", scene.body_names.get(loss.body).map_or("", String::as_str));
     let unit = if worst.turn { "rad" } else { "m" };
     let mut text = format!(
-        "body {} has lost {} {unit} of {} {unit} by t = {}: {} rounds what slow motion adds in a step",
+        "body {} has lost {} {unit} of {} {unit} by t = {}: {} rounds the increments of slow motion",
         name(worst),
         significant(worst.lost, 2),
         significant(worst.moved, 3),
@@ -208,5 +207,5 @@ pub fn of_losses(scene: &Scene, method: &Method, losses: &[Loss]) -> Option<Stri
     if let Some(named) = named(names.into_iter()) {
         text += &format!(", also of {named}");
     }
-    Some(text + "; fixed or f64 does not, a longer step does less")
+    Some(text + "; use fixed or f64, or a longer step, which loses less")
 }

@@ -39,7 +39,7 @@ use crate::simulate::{
 };
 use crate::terminal::LoadError;
 
-/// What a run is asked for. What is `None` is the scene's, or ours.
+/// The request for a run. `None` means the scene's value or the default.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunOptions {
     /// Scheme and precision.
@@ -50,9 +50,9 @@ pub struct RunOptions {
     pub duration: Option<f64>,
     /// \[s\] the sampling interval.
     pub every: Option<f64>,
-    /// What the energy may do before the run is ended; anything where `None`.
+    /// The limit of the energy watch; no watch if `None`.
     pub watch_energy: Option<EnergyLimit>,
-    /// What the run is compared with.
+    /// The reference of the comparison.
     pub golden: Option<GoldenOptions>,
     /// How many of the lowest modes at t = 0 are found; none where `None`.
     pub modes: Option<usize>,
@@ -62,7 +62,7 @@ pub struct RunOptions {
     pub report: bool,
     /// Whether the animation is among them as glTF.
     pub gltf: bool,
-    /// What a command line calls the scene; its name where `None`.
+    /// The scene's name on the command line; its own name if `None`.
     pub called: Option<String>,
 }
 
@@ -86,7 +86,7 @@ impl RunOptions {
     }
 }
 
-/// What a run came to.
+/// The outcome of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     /// The summary.
@@ -95,12 +95,12 @@ pub struct Outcome {
     pub folder: Option<PathBuf>,
     /// The failure, where it failed.
     pub failure: Option<FailedRun>,
-    /// What its watch saw, where that ended it.
+    /// The energy watch's reason, if it ended the run.
     pub stop: Option<EnergyStop>,
 }
 
 impl Outcome {
-    /// What ended the run early.
+    /// The reason for an early end.
     #[must_use]
     pub fn ended_by(&self) -> Option<&dyn Diagnostic> {
         let stop = self.stop.as_ref().map(|stop| stop as &dyn Diagnostic);
@@ -118,7 +118,7 @@ impl Outcome {
 /// Why a run could not be carried out, or its results not be written.
 #[derive(Debug, Error, Diagnostic)]
 pub enum RunError {
-    /// A step or an interval that was asked for does not fit.
+    /// A requested step or interval does not fit.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plan(PlanError),
@@ -126,7 +126,7 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Setting(LoadError),
-    /// The precision cannot hold the step or an input, or this build does not hold the method.
+    /// The precision cannot represent the step or an input, or the method is not part of this build.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plant(#[from] PlantError),
@@ -134,7 +134,7 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Folder(#[from] FolderError),
-    /// There is nothing to compare the run with.
+    /// The run cannot be compared.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Golden(#[from] GoldenRefusal),
@@ -156,7 +156,7 @@ impl From<SimulationError> for RunError {
     }
 }
 
-/// The plan of a run: the options' values before the scene's, the scene's before ours.
+/// The plan of a run: options take precedence over the scene, the scene over defaults.
 ///
 /// # Errors
 /// Where the step does not fit, or steps or samples are too many.
@@ -185,13 +185,13 @@ pub fn plan_within(
     plan(&Request { step, duration, every: options.every.or(scene.every) })
 }
 
-/// A plan's error, at its place in the scene file where what it is about comes from there.
+/// A plan's error, with its position in the scene file if the value comes from there.
 fn refused(scene: &Scene, options: &RunOptions, error: PlanError) -> RunError {
     let step = options.step.is_none().then_some(Setting::Step);
     let every = options.every.is_none().then_some(Setting::Every);
     let duration = options.duration.is_none().then_some(Setting::Duration);
     let settings = match &error {
-        // A step that was asked for is at fault itself.
+        // A requested step is itself the cause.
         PlanError::Multiple { .. } if options.step.is_some() => [None, None],
         PlanError::Multiple { .. } => [step, every],
         PlanError::Steps { .. } => [step, duration],
@@ -206,16 +206,16 @@ fn refused(scene: &Scene, options: &RunOptions, error: PlanError) -> RunError {
     placed.map_or(RunError::Plan(error), |error| RunError::Setting(error.into()))
 }
 
-/// What a run does at the moment.
+/// The phase of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// It steps; steps are counted.
     Stepping,
-    /// It has failed and looks for a step that works; evaluations of elements and bodies are counted.
+    /// It has failed and searches for a stable step; evaluations of elements and bodies are counted.
     Searching,
 }
 
-/// Runs a scene. `progress` hears now and then of what is done and what is to do at most in a stage.
+/// Runs a scene. `progress` is called occasionally with the finished and the largest total work of a phase.
 ///
 /// # Errors
 /// Bad input before anything is written; or results that cannot be written. A run that fails is
@@ -280,7 +280,7 @@ pub fn run(
         summary.warnings.extend(modes.remarks.iter().cloned());
     }
     let called = options.called.as_deref().unwrap_or(&scene.name);
-    // What did not come to its end is neither compared nor blessed.
+    // An incomplete run is neither compared nor blessed.
     let golden = golden.filter(|_| failure.is_none() && stop.is_none());
     summary.golden = golden.map(|golden| golden.finish(&plan, &with_changes(scene, called)));
     if let (Some(mut files), Some(out)) = (files, &options.out) {
@@ -293,7 +293,7 @@ pub fn run(
         let written = written.and_then(|()| files.write("summary.json", &summary.json()));
         let place = files.folder().to_owned();
         let whole = written.and_then(|()| files.finish()).map_err(RunError::Write)?;
-        // Another scene's results may have come there meanwhile.
+        // Another scene's results may have been written there meanwhile.
         out.claim(&place, &scene.name)?;
         whole.publish().map_err(RunError::Write)?;
     }
@@ -421,7 +421,7 @@ fn summarise(
     }
 }
 
-/// The joint that opened by the largest share of its free length.
+/// The joint with the largest opening relative to its free length.
 fn widest(scene: &Scene, openings: &[Opening]) -> Option<JointOpening> {
     let sized = openings.iter().filter(|opening| opening.free_length > 0.0);
     let widest = sized.max_by(|a, b| a.share().total_cmp(&b.share()))?;

@@ -1,4 +1,4 @@
-//! What `host-sim check --stability` says: the largest stable step of a method on a scene.
+//! `host-sim check --stability`: the largest stable step of a method on a scene.
 //!
 //! `(scene, method) => largest step, z, ranges`, about the pose at t = 0.
 
@@ -21,15 +21,15 @@ pub struct StabilityCheck {
     /// Its ρ∞, for the scheme that has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rho: Option<f64>,
-    /// How dampers act.
+    /// Damping method.
     pub damping: &'static str,
     /// The precision's name.
     pub precision: &'static str,
-    /// \[Hz\] the highest frequency of the frozen pose; 0 where nothing vibrates.
+    /// \[Hz\] the highest frequency of the frozen pose; 0 without vibration.
     pub frequency_hz: f64,
     /// \[s\] the largest stable step; `None` where nothing vibrates or no step was found stable.
     pub largest_step: Option<f64>,
-    /// \[s\] of a planar scene, the same of its model in space, where it may tip; `None` of others, too.
+    /// \[s\] for a planar scene, the same for its spatial model, which may tip; `None` for others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_step_in_space: Option<f64>,
     /// ω·h of the largest step.
@@ -68,7 +68,7 @@ impl StabilityCheck {
         })
     }
 
-    /// What people read: names and texts.
+    /// The report for people: names and texts.
     #[must_use]
     pub fn rows(&self) -> Vec<(&'static str, String)> {
         let newton = match self.newton {
@@ -90,14 +90,16 @@ impl StabilityCheck {
                 significant(self.linear_limit, 4),
             ),
             _ if self.frequency_hz == 0.0 => "– (nothing vibrates)".into(),
-            _ => format!("none was found with {method}"),
+            _ => format!("no stable step was found with {method}"),
         };
-        let about = "the pose at t = 0 without velocities: what a spin allows is not in it";
+        let about =
+            "the pose at t = 0 without velocities: limits from angular velocity are not included";
         let mut rows = vec![("largest stable step", step), ("stability about", about.into())];
         if let Some(step) = self.largest_step_in_space {
-            let step = if step > 0.0 { approximate(step) } else { "none was found".into() };
+            let step =
+                if step > 0.0 { approximate(step) } else { "no stable step was found".into() };
             let text = format!(
-                "{step}: there it may tip out of its plane, which the steps above do not know"
+                "{step}: includes tipping out of the plane, which the planar steps above do not"
             );
             rows.push(("stable in space", text));
         }

@@ -1,7 +1,7 @@
-//! What a survey of the same scene has left beside a run's results.
+//! The trade-off study of the same scene in a run's folder.
 //!
-//! `OUT/SCENE/trade.{json,svg} => advice and chart for the run's page`. A survey of another text of the
-//! scene's file, or with other values changed, says nothing about the run and is left out, as one is that cannot be read.
+//! `OUT/SCENE/trade.{json,svg} => advice and chart for the run's page`. A study of another version of the
+//! scene's file, or with other changed values, does not apply and is omitted, as is an unreadable one.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use serde_json::json;
 use crate::report::SetValue;
 use crate::terminal::SceneFile;
 
-/// \[bytes\] a chart beyond is not taken into another page.
+/// \[bytes\] larger charts are not included in another page.
 const LARGEST_CHART: usize = 500_000;
 
-/// What of `trade.json` is read.
+/// The keys of `trade.json` that are read.
 #[derive(Deserialize)]
 struct Found {
     scene_hash: String,
@@ -33,7 +33,7 @@ struct Advised {
     command: String,
 }
 
-/// The survey in a folder, where it is of this text of a scene's file with the same values changed.
+/// The study in a folder, if it belongs to this version of a scene's file with the same changed values.
 #[must_use]
 pub fn surveyed(folder: &Path, scene: &Scene, file: &SceneFile) -> Option<Survey> {
     let text = read_text(folder.join("trade.json")).ok()?;

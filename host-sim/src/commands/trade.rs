@@ -1,4 +1,4 @@
-//! `host-sim trade`: speed against accuracy, every way of stepping a scene at every step.
+//! `host-sim trade`: speed and accuracy of every method on a scene at every step.
 //!
 //! `(scene, window) => survey => OUT/SCENE/trade.{csv,svg,html,json}`, the results kept in the folder
 //! for the next call.
@@ -19,25 +19,25 @@ use crate::report::SetValue;
 use crate::terminal::SceneFile;
 use crate::terminal::text;
 
-/// What a survey is asked for.
+/// The request for a trade-off study.
 #[derive(Clone, Debug)]
 pub struct TradeRequest<'r> {
-    /// What a command line calls the scene.
+    /// The scene's name on the command line.
     pub called: &'r str,
     /// \[s\] the longest window; 0.5 s or the scene's duration where `None`.
     pub window: Option<f64>,
-    /// \[s\] every step divides it; the scene's sampling interval or a round time where `None`.
+    /// \[s\] a multiple of every step; the scene's sampling interval or a round time if `None`.
     pub period: Option<f64>,
     /// Where results go.
     pub out: &'r Destination,
-    /// The scene that ships under the scene's name.
+    /// The built-in scene of this name.
     pub shipped: Option<Scene>,
 }
 
-/// Why a survey could not be made, or its results not be written.
+/// Why a study failed, or its results could not be written.
 #[derive(Debug, Error, Diagnostic)]
 pub enum TradeError {
-    /// There is no survey.
+    /// The study failed.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Survey(#[from] SurveyError),
@@ -50,7 +50,7 @@ pub enum TradeError {
     Write(io::Error),
 }
 
-/// Surveys a scene and writes the results; `progress` hears what it is at. The survey, and the
+/// Runs a study and writes the results; `progress` is called with its phase. Returns the study and the
 /// folder of its files.
 ///
 /// # Errors
@@ -72,13 +72,13 @@ pub fn trade(
     let written = report.add_to(&mut files);
     let written = written.and_then(|()| files.write("trade.json", &json(&report, &out.file)));
     let whole = written.and_then(|()| files.finish()).map_err(TradeError::Write)?;
-    // Another scene's results may have come there meanwhile.
+    // Another scene's results may have been written there meanwhile.
     out.claim(&folder, &scene.name)?;
     whole.publish().map_err(TradeError::Write)?;
     Ok((trade, folder))
 }
 
-/// What programs read of a survey: window, points, and whose they are.
+/// The JSON of a study: window, points and origin.
 #[must_use]
 pub fn json(report: &files::Report<'_>, file: &SceneFile) -> String {
     #[derive(Serialize)]

@@ -1,7 +1,7 @@
-//! What is probably not meant in a scene, in the step it is given, or in what a run of it did.
+//! Warnings of probable mistakes in a scene, its step, or the results of its run.
 //!
-//! `(scene, method, step, openings) => sentences`. The one place that knows them: `check`, `run` and
-//! `trade` say what of it they can know. No warning changes an exit code.
+//! `(scene, method, step, openings) => sentences`. The only source of warnings: `check`, `run` and
+//! `trade` report those that they can evaluate. No warning changes an exit code.
 
 use dbd_kernel::damping::Damping;
 use dbd_plant::digits::{approximate, significant};
@@ -15,25 +15,25 @@ use dbd_study::limits::Limits;
 use crate::commands::rounding::{self, COMPOSED, named};
 use crate::compliance::{Stretch, stretches};
 
-/// h·c/μ up to which slow motion is within 1 %: of dampers that cross with all that act beside them, on
-/// mechanisms at random (`tests/dynamics/strong_dampers.rs`), and of each under compositions, by the table in
+/// h·c/μ up to which slow motion is accurate to 1 %: for interacting dampers, with all that act in parallel, on
+/// random mechanisms (`tests/dynamics/strong_dampers.rs`), and for each damper with compositions, by the table in
 /// docs/schemes.md.
 const STRONGEST_CROSSED: f64 = 2.5;
 const STRONGEST_COMPOSED: f64 = 0.3;
 
-/// Bodies up to which the highest frequency is solved for where its bound would warn and its estimate does not: in a
-/// tenth of a second.
+/// Largest number of bodies for which the highest frequency is computed if its bound would warn and its estimate does
+/// not: takes a tenth of a second.
 const SOLVED: usize = 60;
 
-/// What is probably not meant in the scene itself.
+/// Warnings about the scene itself.
 #[must_use]
 pub fn of_scene(scene: &Scene) -> Vec<String> {
     let [warnings, _] = with_notes(scene, &dbd_scene::facts(scene));
     warnings
 }
 
-/// What is probably not meant in the scene itself, and what is good to know of it, where its facts
-/// are at hand.
+/// Warnings and notes about the scene itself, if its facts
+/// are already computed.
 #[must_use]
 pub fn with_notes(scene: &Scene, facts: &Facts) -> [Vec<String>; 2] {
     let all = dbd_scene::warnings_with(scene, facts);
@@ -45,7 +45,7 @@ pub fn with_notes(scene: &Scene, facts: &Facts) -> [Vec<String>; 2] {
     [warnings, notes]
 }
 
-/// Joints that the forces at t = 0 alone open by more than [`OPENED`] of their free length.
+/// Joints that the forces at t = 0 open by more than [`OPENED`] of their free length.
 fn of_stiffness(scene: &Scene) -> Option<String> {
     let mut soft = stretches(scene);
     soft.retain(|stretch| stretch.share() > OPENED);
@@ -54,7 +54,7 @@ fn of_stiffness(scene: &Scene) -> Option<String> {
     let name = |stretch: &Stretch| format!("`{}`", scene.joints[stretch.joint].name);
     let line = scene.line_of_joint(worst.joint).map(|line| format!(" (line {line})"));
     let mut text = format!(
-        "joint {}{}: gives way by {} m under the forces at t = 0, {} % of its free length of {} m",
+        "joint {}{}: deflects by {} m under the forces at t = 0, {} % of its free length of {} m",
         name(worst),
         line.unwrap_or_default(),
         significant(worst.extension, 3),
@@ -62,13 +62,13 @@ fn of_stiffness(scene: &Scene) -> Option<String> {
         significant(worst.free_length, 4),
     );
     if let Some(named) = named(others.iter().map(name)) {
-        text += &format!("; so do, by more than {} % of theirs, {named}", 100.0 * OPENED);
+        text += &format!("; deflections above {} % also in {named}", 100.0 * OPENED);
     }
-    Some(text + ": is the stiffness in N/m, are masses in kg, forces in N?")
+    Some(text + ": check the units: stiffness in N/m, masses in kg, forces in N")
 }
 
-/// What is wrong with a step at t = 0: vibration beyond what the scheme bears, a spin beyond what a
-/// step may turn. `whose` step it is begins the sentence: `the step`.
+/// Errors of a step at t = 0: vibration above the scheme's stability limit, too much rotation per
+/// step. `whose` begins the sentence: `the step`.
 #[must_use]
 pub fn of_step(
     scene: &Scene,
@@ -86,15 +86,15 @@ pub fn of_step(
     let most = highest * step;
     let mut warnings = Vec::new();
     if most > limit {
-        // The estimate is never above the truth. A run may yet look well: exact planar motion, for
-        // one, does not excite what vibrates out of the plane.
+        // The estimate is never above the exact frequency. A run may still succeed: exact planar motion, for
+        // example, does not excite vibration out of the plane.
         let (z, of, then) = match least > limit {
-            true => (least, "estimate", "what vibrates so grows without bound once it is excited"),
+            true => (least, "estimate", "this vibration grows without bound once it is excited"),
             false => (most, "bound", "the run may diverge"),
         };
         warnings.push(format!(
-            "{whose} of {} is beyond what {} bears: ω·h = {} with the {of} of the highest frequency \
-             at t = 0, the limit is {}: {then}; a step of at most {}",
+            "{whose} of {} exceeds the stability limit of {}: ω·h = {} with the {of} of the highest frequency \
+             at t = 0, the limit is {}: {then}; use a step of at most {}",
             display(step),
             method.scheme_name(),
             significant(z, 3),
@@ -108,8 +108,8 @@ pub fn of_step(
     warnings
 }
 
-/// Dampers so strong that what they slow down moves too fast: of all for a composition, whose sweeps
-/// lie around the step, of those that cross for the others; within a joint joint-wise damping has none.
+/// Dampers so strong that the damped motion is too fast: all dampers for a composition, whose damper passes
+/// enclose the step, interacting dampers for the others; within a joint, joint-wise damping has no such error.
 fn of_damping(scene: &Scene, method: &Method, step: f64, whose: &str) -> Option<String> {
     if matches!(method.damping(), Damping::Explicit | Damping::Implicit) {
         return None;
@@ -131,27 +131,27 @@ fn of_damping(scene: &Scene, method: &Method, step: f64, whose: &str) -> Option<
         worst.name,
         line.unwrap_or_default(),
         significant(rate(worst) * step, 3),
-        if composed { "" } else { " with all that act beside them" },
+        if composed { "" } else { " including all dampers that act in parallel" },
     );
     if let Some(named) = named(others.iter().map(|element| element.name.clone())) {
         text += &format!(", and of {named}");
     }
     let shorter = approximate(most / rate(worst));
-    text += &format!("; beyond {most} what they slow down may move too fast by more than 1 %");
+    text += &format!("; above {most} the damped motion may be too fast by more than 1 %");
     text += &match composed {
         true => {
-            format!(" under {}: leapfrog, or a step of at most {shorter}", method.scheme_name())
+            format!(" with {}: use leapfrog, or a step of at most {shorter}", method.scheme_name())
         }
         false => format!(
-            ", where dampers cross: a step of at most {shorter}, or {}",
+            " if dampers interact: use a step of at most {shorter}, or {}",
             SchemeName::GeneralizedAlpha.name()
         ),
     };
     Some(text)
 }
 
-/// What a run did that is probably not meant: joints that opened by more than [`OPENED`] of their
-/// free length. Those of bushings have none, and are the same however far they open.
+/// Warnings about a run: joints that opened by more than [`OPENED`] of their
+/// free length. Bushings have no free length and stay accurate at any opening.
 #[must_use]
 pub fn of_run(scene: &Scene, openings: &[Opening]) -> Vec<String> {
     let with_length = openings.iter().filter(|opening| opening.free_length > 0.0);
@@ -172,10 +172,10 @@ pub fn of_run(scene: &Scene, openings: &[Opening]) -> Vec<String> {
     if let Some(named) = named(others.iter().map(|(other, _)| name(other))) {
         text += &format!("; so did {named}");
     }
-    vec![text + ": stiffness, masses and loads do not go together, or the step is too long"]
+    vec![text + ": stiffness, masses and loads are inconsistent, or the step is too long"]
 }
 
-/// Springs named as ropes, tyres or stops that changed to the side on which no such thing acts.
+/// Springs named as ropes, tyres or stops that acted in the direction in which the real part cannot.
 #[must_use]
 pub fn of_springs(reversals: &[Reversal]) -> Vec<String> {
     let sentence = |one: &Reversal| {
@@ -185,7 +185,7 @@ pub fn of_springs(reversals: &[Reversal]) -> Vec<String> {
         let force = |newtons: f64| format!("{} N", significant(newtons.abs(), 3));
         Some(format!(
             "{name} (line {line}): {does} from t = {} on, there with {}, at most with {} at t = {}, which no {word} \
-             does: it is {slack} then in truth; a `clearance` or another model of it lets it go",
+             does: a real one is {slack} then; use a `clearance` or another model that releases it",
             display(rounded(since, 6)),
             force(at_first),
             force(one.most.0),
@@ -195,10 +195,10 @@ pub fn of_springs(reversals: &[Reversal]) -> Vec<String> {
     reversals.iter().filter_map(sentence).collect()
 }
 
-/// By so much more than at t = 0 a body must have come to turn in a step for a run to say so, too.
+/// Factor over the rotation per step at t = 0 from which a run warns again.
 const TURNS_FASTER: f64 = 1.5;
 
-/// A body that came to turn too far in a step on the way. What it does so at t = 0 is said of the step.
+/// A body that rotated too far in a step during the run. The warning at t = 0 belongs to the step.
 #[must_use]
 pub fn of_turns(
     scene: &Scene,
@@ -214,7 +214,7 @@ pub fn of_turns(
     let body = scene.body_names.get(turning.body).map_or("", String::as_str);
     Some(format!(
         "body `{body}` turned by {} rad in a step at t = {}, a body by more than {LARGEST_TURN} rad from \
-         t = {} on: energy and attitude go wrong{}; a step of at most {}",
+         t = {} on: energy and attitude become inaccurate{}; use a step of at most {}",
         significant(turning.turn, 2),
         display(rounded(turning.time, 6)),
         display(rounded(since, 6)),
@@ -223,12 +223,10 @@ pub fn of_turns(
     ))
 }
 
-/// What Euler angles lose besides: `tests/mechanics/extremes/attitude.rs` has the figure.
+/// The additional loss with Euler angles: `tests/mechanics/extremes/attitude.rs` measures it.
 fn of_angles(method: &Method) -> &'static str {
     match method.orientation() {
         OrientationName::Quaternion => "",
-        _ => {
-            ", and with Euler angles angular momentum is lost: a fifth of it in 10,000 steps of 0.5 rad"
-        }
+        _ => ", and Euler angles lose angular momentum: a fifth of it in 10,000 steps of 0.5 rad",
     }
 }

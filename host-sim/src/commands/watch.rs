@@ -1,7 +1,7 @@
-//! `host-sim check --watch`: a file is looked at again each time it has changed.
+//! `host-sim check --watch`: a file is checked again after each change.
 //!
-//! `file => its changes, one after the other`. It is read a few times a second: that meets editors that write in place and
-//! those that put another file in its place, network folders, and links alike, and a scene is small.
+//! `file => its changes in order`. It is read a few times a second: this works with editors that write in place or
+//! replace the file, with network folders and with links, and a scene is small.
 
 use std::fmt;
 use std::io;
@@ -13,26 +13,26 @@ use dbd_scene::file::{MAX_BYTES, read};
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// Between two looks.
+/// Polling interval.
 const PAUSE: Duration = Duration::from_millis(150);
 
-/// Looks at nothing after which a file counts as gone: an editor may take it away for a moment.
+/// Failed reads after which a file counts as removed: an editor may remove it for a moment.
 const PATIENCE: u32 = 7;
 
 /// Why a scene is not watched.
 #[derive(Debug, Error)]
 pub enum WatchError {
-    /// It is no file.
-    #[error("{scene} is no file that could change")]
+    /// Not a file.
+    #[error("--watch needs a scene file; {scene} is not one")]
     NoFile {
         /// What was named.
         scene: String,
     },
-    /// Texts for one reader cannot follow each other on standard output.
-    #[error("--watch prints checks, and --svg - or --write - something else")]
+    /// Two outputs cannot share standard output.
+    #[error("--watch, and --svg - or --write -, both write to standard output")]
     Output,
-    /// Each check would change it.
-    #[error("--write {} is the scene that is watched", file.display())]
+    /// Each check would change the scene.
+    #[error("--write {} would overwrite the watched scene", file.display())]
     Itself {
         /// The file.
         file: PathBuf,
@@ -46,29 +46,29 @@ impl Diagnostic for WatchError {
                 "a path to a .toml file; host-sim new scene NAME --from SCENE writes a copy of a \
                  scene that is built in"
             }
-            Self::Output => "a file in place of -, which is written anew at each check",
-            Self::Itself { .. } => "another file",
+            Self::Output => "give a file instead of -; it is rewritten at each check",
+            Self::Itself { .. } => "choose another file",
         }))
     }
 }
 
-/// A file that is watched.
+/// A watched file.
 pub struct Watched {
     file: PathBuf,
-    /// What was seen last; an error by its kind.
+    /// The last contents; an error by its kind.
     last: Option<Seen>,
 }
 
 type Seen = Result<Vec<u8>, io::ErrorKind>;
 
 impl Watched {
-    /// Of a file that nobody has looked at yet.
+    /// For a file that has not been read yet.
     #[must_use]
     pub fn new(file: &Path) -> Self {
         Self { file: file.to_owned(), last: None }
     }
 
-    /// Waits until the file holds something else than when it was last looked at, or is gone for good; at first it does
+    /// Waits until the file's contents have changed or the file is removed; the first call does
     /// not wait.
     pub fn wait(&mut self) {
         let mut before = self.look();
@@ -76,7 +76,7 @@ impl Watched {
             let mut alike = 0;
             loop {
                 let is_news = self.last.as_ref() != Some(&before);
-                // What is written piece by piece is seen twice alike when it is complete.
+                // A file written in parts is complete once two reads are equal.
                 let needed = if before.is_ok() { 1 } else { PATIENCE };
                 if is_news && alike >= needed {
                     break;
@@ -101,7 +101,7 @@ mod tests {
 
     use super::*;
 
-    /// Written in place, replaced by another file, away for a moment: each change is seen once it is whole.
+    /// Written in place, replaced, removed for a moment: each change is seen once, when complete.
     #[test]
     fn a_change_is_seen_however_it_is_made() {
         let here = tempfile::tempdir().unwrap();

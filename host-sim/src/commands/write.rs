@@ -1,6 +1,6 @@
 //! `host-sim check --write FILE`: a scene in its long form.
 //!
-//! `(text, changes) => file whose scene has the same bits`. Nothing that is there is replaced unasked.
+//! `(text, changes) => file whose scene has the same bits`. An existing file is replaced only with --overwrite.
 
 use std::fmt;
 use std::io;
@@ -14,19 +14,19 @@ use thiserror::Error;
 /// Why a scene was not written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// There is something already.
+    /// The file exists.
     #[error("{} exists", file.display())]
     Taken {
         /// The file.
         file: PathBuf,
     },
-    /// Two things for standard output.
-    #[error("--write - prints to standard output, and so does --json or --svg -")]
+    /// Both would go to standard output.
+    #[error("--write -, and --json or --svg -, both write to standard output")]
     Both,
-    /// What was written is not the same scene.
-    #[error("the long form of this scene does not read back to the same bits, and is not written")]
+    /// The written scene differs.
+    #[error("the long form of this scene does not read back to the same bits and is not written")]
     Differs,
-    /// The scene is refused.
+    /// The scene is invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The file cannot be written.
@@ -34,7 +34,7 @@ pub enum WriteError {
     Write {
         /// The file.
         file: PathBuf,
-        /// Why; part of the message and therefore not a source, which would say it twice.
+        /// The reason; part of the message and therefore not a source, which would repeat it.
         reason: io::Error,
     },
 }
@@ -42,22 +42,22 @@ pub enum WriteError {
 impl Diagnostic for WriteError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         Some(Box::new(match self {
-            Self::Taken { .. } => "name another file, or replace that one with --overwrite",
-            Self::Both => "one of them, or --write FILE",
-            Self::Differs => "this is a mistake in host-sim; the scene itself can be used as it is",
+            Self::Taken { .. } => "choose another file, or replace that one with --overwrite",
+            Self::Both => "use only one of them, or write the scene to a file with --write FILE",
+            Self::Differs => "this is a bug in host-sim; the scene itself is usable",
             Self::Scene(error) => return Some(Box::new(error.help())),
             Self::Write { .. } => return None,
         }))
     }
 }
 
-/// Whether standard output is meant.
+/// Whether the target is standard output.
 #[must_use]
 pub fn is_output(file: &Path) -> bool {
     file == Path::new("-")
 }
 
-/// The long form of a scene, seen to read back to the same bits.
+/// The long form of a scene, verified to read back to the same bits.
 ///
 /// # Errors
 /// [`WriteError::Differs`] where it does not.
@@ -76,7 +76,7 @@ pub fn long_form(
 /// [`WriteError::Differs`] where it does not.
 pub fn seen_to_read_back(scene: &Scene, written: String, file: &str) -> Result<String, WriteError> {
     match Scene::parse(&written, file) {
-        // As they are shown, −0 is not 0.
+        // In the debug format −0 differs from 0.
         Ok(back)
             if format!("{:?}", back.model) == format!("{:?}", scene.model)
                 && format!("{:?}", back.geometry) == format!("{:?}", scene.geometry) =>
@@ -87,10 +87,10 @@ pub fn seen_to_read_back(scene: &Scene, written: String, file: &str) -> Result<S
     }
 }
 
-/// Writes a text to a file, whole or not at all.
+/// Writes a text to a file atomically.
 ///
 /// # Errors
-/// [`WriteError::Taken`] where there is one and it is not to be replaced, [`WriteError::Write`].
+/// [`WriteError::Taken`] if it exists and is not to be replaced, [`WriteError::Write`].
 pub fn write(file: &Path, text: &str, overwrite: bool) -> Result<(), WriteError> {
     // A device is never replaced.
     if file.exists() && !(overwrite && file.is_file()) {

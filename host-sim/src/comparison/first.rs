@@ -15,9 +15,9 @@ pub struct First {
     pub steps: [u64; 2],
     /// The steps of the common sample before, which was equal; `None` where there is none.
     pub equal_steps: Option<[u64; 2]>,
-    /// What differs: a trace's column, `turns.0`, or `state` where no column does but the hash of all words.
+    /// What differs: a trace's column, `turns.0`, or `state` if only the hash of all words differs.
     pub component: String,
-    /// The body that it is of.
+    /// Its body.
     pub body: Option<String>,
     /// Its quantity: `position`, `orientation`, `velocity`, `angular-velocity`, `energy`, `turns`, `readout`, `state`.
     pub quantity: &'static str,
@@ -45,12 +45,12 @@ impl fmt::Display for First {
 }
 
 impl First {
-    /// What differs, without when.
+    /// The difference without its time.
     #[must_use]
     pub fn what(&self) -> String {
         if self.component == "state" {
             return format!(
-                "the hash of the stored state, though all {} numbers that both hold are equal",
+                "the hash of the stored state, although all {} common numbers are equal",
                 self.numbers
             );
         }
@@ -58,7 +58,7 @@ impl First {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
         let apart = significant((b - a).abs(), 3);
         let apart = match self.ulps {
-            // Of values whose rounding to the coarser precision is the same.
+            // Values equal after rounding to the coarser precision.
             Some(0) => {
                 format!(" ({apart}{unit} apart, equal when rounded to the coarser precision)")
             }
@@ -83,11 +83,11 @@ pub struct Beyond {
     pub quantity: String,
     /// Its unit.
     pub unit: String,
-    /// The body that is furthest off.
+    /// The body with the largest deviation.
     pub body: Option<String>,
-    /// How far it is off; `None` where one has no number.
+    /// The deviation; `None` if one is not a number.
     pub distance: Option<f64>,
-    /// How far it may be.
+    /// \[`unit`\] the band.
     pub band: f64,
 }
 
@@ -97,8 +97,8 @@ impl fmt::Display for Beyond {
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         let of = self.body.as_ref().map(|body| format!(" of {body}")).unwrap_or_default();
         let off = match self.distance {
-            Some(distance) => format!("is off by {}{unit}", significant(distance, 4)),
-            None => "has a number in one run only".into(),
+            Some(distance) => format!("differs by {}{unit}", significant(distance, 4)),
+            None => "is a number in one run only".into(),
         };
         let time = display(self.time);
         write!(

@@ -1,9 +1,9 @@
-//! Two recorded runs beside each other, at the times that both have.
+//! Comparison of two recorded runs at their common times.
 //!
 //! `(head, rows) of A and of B, bands => equal, within bands, or where they first differ and how far apart they go`.
 //!
-//! - [`pairing`]: which bodies and values go together, by their names.
-//! - [`quantity`]: how far apart a quantity is, over all samples.
+//! - [`pairing`]: pairs of bodies and values with the same name.
+//! - [`quantity`]: the distance of a quantity over all samples.
 //! - [`first`]: where two samples first differ.
 //! - [`walk`]: sample by sample.
 //! - [`run`]: two whole runs.

@@ -1,10 +1,10 @@
-//! Which bodies and values of two runs go together: those of the same name.
+//! Pairs of bodies and values of two runs, by name.
 
 use serde::Serialize;
 
 use crate::recorded::{Head, Value};
 
-/// What goes together, as rows of A and of B, and what is left.
+/// The pairs, as rows of A and of B, and the unpaired rest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pairing {
     /// Bodies that both have.
@@ -20,7 +20,7 @@ pub struct Pairing {
 pub struct Pair {
     /// Its name.
     pub name: String,
-    /// Its unit, where one of them tells it.
+    /// Its unit, if one of them records it.
     pub unit: String,
     /// Its row in A and in B.
     pub rows: [usize; 2],
@@ -36,7 +36,7 @@ pub struct Alone {
 }
 
 impl Pairing {
-    /// Pairs what two runs hold.
+    /// Pairs the contents of two runs.
     #[must_use]
     pub fn of(heads: [&Head; 2]) -> Self {
         let [a, b] = heads;

@@ -1,4 +1,4 @@
-//! How far apart a quantity of two runs is, over all common samples.
+//! The distance of a quantity of two runs over all common samples.
 //!
 //! `distances, numbers between => RMS, largest with time and body, most numbers between`.
 
@@ -17,14 +17,14 @@ pub struct Quantity {
     pub rms: Option<f64>,
     /// The largest distance, likewise.
     pub largest: Option<f64>,
-    /// The body that is so far off.
+    /// Its body.
     pub body: Option<String>,
-    /// \[s\] when it is.
+    /// \[s\] its time.
     pub time: Option<f64>,
-    /// Numbers of the coarser precision between the two there, of the component that is furthest off; `None` from
+    /// Numbers of the coarser precision between the two there, of the component with the largest difference; `None` for
     /// a NaN.
     pub ulps: Option<u64>,
-    /// How far it may be off.
+    /// The permitted deviation.
     pub band: Option<f64>,
     #[serde(skip)]
     sum: f64,
@@ -33,7 +33,7 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// A quantity that was not seen yet.
+    /// A quantity without samples.
     #[must_use]
     pub fn new(name: &str, unit: &str) -> Self {
         Self {
@@ -56,7 +56,7 @@ impl Quantity {
         self.time.is_none()
     }
 
-    /// Takes the distance at a sample; one that is no number is larger than any.
+    /// Adds the distance at a sample; a NaN counts as larger than any.
     pub(super) fn push(&mut self, distance: f64, time: f64, body: Option<&str>, ulps: Option<u64>) {
         self.count += 1;
         self.sum += distance * distance;
@@ -74,7 +74,7 @@ impl Quantity {
     }
 }
 
-/// How many numbers lie between two, counted in the coarser of two precisions; none from a NaN.
+/// How many numbers lie between two, counted in the coarser of two precisions; `None` for a NaN.
 #[must_use]
 pub fn ulps(digits: [Digits; 2], values: [f64; 2]) -> Option<u64> {
     let [a, b] = values;

@@ -1,7 +1,7 @@
-//! Two whole runs beside each other.
+//! Comparison of two complete runs.
 //!
 //! `A, B, bands => comparison`. Samples are compared at the times that both runs have, to rounding (relative 1e-9);
-//! the others are counted, and nothing is interpolated.
+//! the others are counted; there is no interpolation.
 
 use std::path::PathBuf;
 
@@ -16,10 +16,10 @@ use crate::comparison::quantity::Quantity;
 use crate::comparison::walk::Walk;
 use crate::recorded::{Head, Recorded, Row, Unreadable};
 
-/// Two times are one where they differ by less, relative.
+/// Times are equal below this relative difference.
 const ROUNDING: f64 = 1e-9;
 
-/// What two runs are to each other.
+/// The verdict on two runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Every number that both have is equal at every common time.
@@ -30,14 +30,14 @@ pub enum Verdict {
     Different,
 }
 
-/// What a comparison saw.
+/// The result of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// What A and B were.
+    /// The heads of A and B.
     pub heads: [Head; 2],
-    /// What they came to.
+    /// How they ended.
     pub ends: [End; 2],
-    /// What goes together.
+    /// The pairs of bodies and values.
     pub pairing: Pairing,
     /// Common samples.
     pub samples: u64,
@@ -47,7 +47,7 @@ pub struct Comparison {
     pub first: Option<First>,
     /// Where one first leaves a band.
     pub beyond: Option<Beyond>,
-    /// How far apart they are.
+    /// The distances.
     pub quantities: Vec<Quantity>,
     /// Whether bands were stated.
     pub banded: bool,
@@ -75,33 +75,33 @@ pub enum CompareError {
     Unreadable(#[from] Unreadable),
     /// They have no time in common.
     #[error("{} and {} have no sample at the same time{}: {}", files[0].display(), files[1].display(), but, samples)]
-    #[diagnostic(help("sample one of them as the other: run it again with the same --every"))]
+    #[diagnostic(help("run one of them again with the other's --every"))]
     Apart {
         /// The files of A and B.
         files: [PathBuf; 2],
-        /// What they have in common after all.
+        /// The common time, if there is one.
         but: &'static str,
         /// How each is sampled.
         samples: String,
     },
     /// They have no body in common.
     #[error("{} and {} have no body of the same name: {}; {}", files[0].display(), files[1].display(), bodies[0], bodies[1])]
-    #[diagnostic(help("compare runs of one scene, or of scenes that call their bodies alike"))]
+    #[diagnostic(help("compare runs of one scene, or of scenes with the same body names"))]
     Strangers {
         /// The files of A and B.
         files: [PathBuf; 2],
         /// Their bodies.
         bodies: [String; 2],
     },
-    /// A band is stated for what is not compared, or none for what is.
+    /// A band is given for something that is not compared, or missing for something that is.
     #[error("{0}")]
     #[diagnostic(help(
-        "a number alone holds for every read-out without a band of its own: --band 1e-6,angle=1e-3"
+        "a single number applies to every read-out without its own band: --band 1e-6,angle=1e-3"
     ))]
     Band(String),
 }
 
-/// One of two runs under way.
+/// One of two runs in progress.
 struct Side {
     run: Recorded,
     row: Option<Row>,
@@ -115,10 +115,10 @@ impl Side {
         Ok(side)
     }
 
-    /// Goes on to the next sample.
+    /// Advances to the next sample.
     fn step(&mut self) -> Result<(), Unreadable> {
         let next = self.run.next_row()?;
-        // The row is kept in its place, for runs are long.
+        // The row is reused, because runs are long.
         match (next, &mut self.row) {
             (None, kept) => *kept = None,
             (Some(row), Some(kept)) => kept.clone_from(row),
@@ -163,7 +163,7 @@ pub fn compare(
     };
     let [a, b] = runs;
     let (mut a, mut b) = (Side::new(a)?, Side::new(b)?);
-    // Both are read to their ends, which tell whether they are whole.
+    // Both are read to the end, which shows whether they are complete.
     loop {
         match (&a.row, &b.row) {
             (Some(of_a), Some(of_b)) if is_one(of_a.time, of_b.time) => {
@@ -196,23 +196,22 @@ fn is_one(a: f64, b: f64) -> bool {
     (a - b).abs() <= ROUNDING * a.abs().max(b.abs())
 }
 
-/// Sees that every value has a band, and every band a value.
+/// Checks that every value has a band, and every band a value.
 fn check_bands(bands: &dbd_golden::Bands<'_>, pairing: &Pairing) -> Result<(), CompareError> {
     let names = || pairing.values.iter().map(|pair| pair.name.as_str());
     let known: Vec<&str> = names().chain(dbd_scene::ENERGY_COLUMNS).collect();
     if let Some(name) = bands.unknown(&known) {
-        let problem =
-            format!("a band is stated for `{name}`, which is not among what both runs have");
+        let problem = format!("a band is given for `{name}`, which is not in both runs");
         return Err(CompareError::Band(problem));
     }
     match names().find(|name| bands.of_value(name).is_none()) {
-        Some(name) => Err(CompareError::Band(format!("no band is stated for `{name}`"))),
+        Some(name) => Err(CompareError::Band(format!("no band is given for `{name}`"))),
         None => Ok(()),
     }
 }
 
 impl End {
-    /// How a run is sampled, in words.
+    /// The sampling of a run as text.
     #[must_use]
     pub fn text(&self) -> String {
         let (from, until) = (display(self.from), display(self.until));
@@ -225,7 +224,7 @@ impl End {
     }
 }
 
-/// A difference of two times without what rounding left.
+/// A difference of two times without its rounding error.
 fn rounded(time: f64) -> f64 {
     dbd_plant::time::rounded(time, 12)
 }
@@ -240,7 +239,7 @@ impl Comparison {
             || apart && (a.failed() || b.failed())
     }
 
-    /// What they are to each other.
+    /// The verdict.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         if self.pairing.lacks_bodies() || self.ended_apart() {

@@ -1,7 +1,7 @@
 //! Two runs, sample by sample, at the times that both have.
 //!
-//! `pairs of rows => first difference, quantities, first sample beyond a band`. Numbers are equal where their bits
-//! are; a NaN is like another. How far bodies are apart is what `dbd-golden` says.
+//! `pairs of rows => first difference, quantities, first sample beyond a band`. Numbers are equal if their bits
+//! are; all NaNs are equal. The distances of bodies are those of `dbd-golden`.
 
 use dbd_golden::{Bands, Quantity as BodyQuantity, same};
 use dbd_plant::numerals::Digits;
@@ -13,11 +13,11 @@ use crate::comparison::quantity::{Quantity, ulps};
 use crate::recorded::row_text::digits_of;
 use crate::recorded::{Head, Row};
 
-/// What was seen so far.
+/// The result so far.
 pub struct Walk<'h> {
     heads: [&'h Head; 2],
     pairing: &'h Pairing,
-    /// Whether the stored words of both are of one kind, so that their hashes can be compared.
+    /// Whether both have stored words of the same kind, so that their hashes can be compared.
     hashes: bool,
     /// Common samples.
     pub samples: u64,
@@ -29,7 +29,7 @@ pub struct Walk<'h> {
     pub first: Option<First>,
     /// The first sample beyond a band.
     pub beyond: Option<Beyond>,
-    /// Of bodies, in the order of [`BodyQuantity::ALL`].
+    /// The quantities of bodies, in the order of [`BodyQuantity::ALL`].
     bodies: [Quantity; 4],
     energies: Option<[Quantity; 3]>,
     values: Vec<Quantity>,
@@ -81,7 +81,7 @@ impl Seen {
     }
 }
 
-/// How far two numbers are apart; infinitely where one is none.
+/// The distance of two numbers; infinite if one is a NaN.
 fn apart(a: f64, b: f64) -> f64 {
     if same(a, b) {
         return 0.0;
@@ -100,7 +100,7 @@ impl<'h> Walk<'h> {
         };
         let bodies = BodyQuantity::ALL
             .map(|of| banded(Quantity::new(of.name(), of.unit()), bands.map(|bands| bands.of(of))));
-        // Energies follow from the state: a number for all is none for them.
+        // Energies follow from the state: a single number does not apply to them.
         let named = |name: &str| {
             let own = bands.map(|bands| Bands { others: None, ..*bands });
             own.and_then(|bands| bands.of_value(name))
@@ -176,7 +176,7 @@ impl<'h> Walk<'h> {
         let mut furthest = [(f64::NEG_INFINITY, ""); 4];
         for pair in &self.pairing.bodies {
             let (of_a, of_b) = (&a.bodies[pair.rows[0]], &b.bodies[pair.rows[1]]);
-            // Both signs are one orientation; what is nearer counts.
+            // Both signs are the same orientation; the nearer one counts.
             let dot: f64 = (3..7).map(|column| of_a[column] * of_b[column]).sum();
             let mut equal = [true; 4];
             let mut most: [(f64, Option<u64>); 4] = [(-1.0, None); 4];
@@ -235,7 +235,7 @@ impl<'h> Walk<'h> {
     fn look_at_energies(&mut self, a: &Row, b: &Row, seen: &mut Seen) {
         let both = a.energies.zip(b.energies);
         let Some((quantities, (of_a, of_b))) = self.energies.as_mut().zip(both) else {
-            // A golden file has none.
+            // A golden file has no energies.
             self.energies = None;
             return;
         };
@@ -256,7 +256,7 @@ impl<'h> Walk<'h> {
     }
 }
 
-/// Takes a number that is a quantity by itself.
+/// Adds a number that is a quantity by itself.
 fn number(
     quantity: &mut Quantity,
     kind: &'static str,

@@ -1,56 +1,56 @@
-//! The examples at the end of each command's help, a file of text for each.
+//! The examples at the end of each command's help, one text file each.
 //!
-//! In a file a line `  # …` says what the command in the next line does, a line `  host-sim …`, which may end in
-//! `| …` or `> …`. A test of the command line parses all of them, so that none rots.
+//! In a file, a line `  # …` describes the command in the next line, `  host-sim …`, which may end in
+//! `| …` or `> …`. A test of the command line parses all of them.
 
-/// The text of a file below a heading that looks as those of the help.
+/// The text of a file below a heading in the style of the help.
 macro_rules! examples {
     ($file:literal) => {
         concat!("\u{1b}[1m\u{1b}[4mExamples:\u{1b}[0m\n", include_str!($file))
     };
 }
 
-/// Of `advise`.
+/// Examples of `advise`.
 pub const ADVISE: &str = examples!("advise.txt");
-/// Of `check`.
+/// Examples of `check`.
 pub const CHECK: &str = examples!("check.txt");
-/// Of `compare`.
+/// Examples of `compare`.
 pub const COMPARE: &str = examples!("compare.txt");
-/// Of `completions`.
+/// Examples of `completions`.
 pub const COMPLETIONS: &str = examples!("completions.txt");
-/// Of `export`.
+/// Examples of `export`.
 pub const EXPORT: &str = examples!("export.txt");
-/// Of `fmu`.
+/// Examples of `fmu`.
 pub const FMU: &str = examples!("fmu.txt");
-/// Of `hil`.
+/// Examples of `hil`.
 pub const HIL: &str = examples!("hil.txt");
-/// Of `import`.
+/// Examples of `import`.
 pub const IMPORT: &str = examples!("import.txt");
-/// Of `linearise`.
+/// Examples of `linearise`.
 pub const LINEARISE: &str = examples!("linearise.txt");
-/// Of `list`.
+/// Examples of `list`.
 pub const LIST: &str = examples!("list.txt");
-/// Of `modes`.
+/// Examples of `modes`.
 pub const MODES: &str = examples!("modes.txt");
-/// Of `new c`.
+/// Examples of `new c`.
 pub const NEW_C: &str = examples!("new-c.txt");
-/// Of `new firmware`.
+/// Examples of `new firmware`.
 pub const NEW_FIRMWARE: &str = examples!("new-firmware.txt");
-/// Of `new laws`.
+/// Examples of `new laws`.
 pub const NEW_LAWS: &str = examples!("new-laws.txt");
-/// Of `new scene`.
+/// Examples of `new scene`.
 pub const NEW_SCENE: &str = examples!("new-scene.txt");
-/// Of `play`.
+/// Examples of `play`.
 pub const PLAY: &str = examples!("play.txt");
-/// Of `relax`.
+/// Examples of `relax`.
 pub const RELAX: &str = examples!("relax.txt");
-/// Of `reproduce`.
+/// Examples of `reproduce`.
 pub const REPRODUCE: &str = examples!("reproduce.txt");
-/// Of `run`.
+/// Examples of `run`.
 pub const RUN: &str = examples!("run.txt");
-/// Of `schema`.
+/// Examples of `schema`.
 pub const SCHEMA: &str = examples!("schema.txt");
-/// Of `sweep`.
+/// Examples of `sweep`.
 pub const SWEEP: &str = examples!("sweep.txt");
-/// Of `trade`.
+/// Examples of `trade`.
 pub const TRADE: &str = examples!("trade.txt");

@@ -1,6 +1,6 @@
-//! A golden file as a recorded run, by itself or within what a console showed.
+//! A golden file as a recorded run, by itself or within a console log.
 //!
-//! `text => head, rows`. So a run that a chip has printed is compared as it came.
+//! `text => head, rows`. A run that a chip has printed can thus be compared unchanged.
 
 use std::path::Path;
 
@@ -13,25 +13,25 @@ use crate::recorded::head::{Head, Kind, Value};
 use crate::recorded::row::Row;
 use crate::recorded::unreadable::Unreadable;
 
-/// A golden file is looked at by people: none is larger.
+/// Largest size of a golden file, which people read.
 const MAX_GOLDEN_BYTES: u64 = 1 << 30;
 
-/// What a golden file begins with.
+/// The beginning of a golden file.
 pub const FIRST: &str = "# dbd golden ";
 
 /// Reads a golden file.
 ///
 /// # Errors
-/// Where it cannot be read, is damaged, or holds none.
+/// If it cannot be read, is damaged, or contains no golden file.
 pub fn read(file: &Path) -> Result<(Head, Vec<Row>), Unreadable> {
     let failed = |reason| Unreadable::system(file, &reason);
     let bytes = dbd_scene::file::read(file, MAX_GOLDEN_BYTES).map_err(failed)?;
-    // What a console shows besides may be anything.
+    // A console log may contain anything else.
     let text = String::from_utf8_lossy(&bytes);
     let Some(record) = recording::within(&text).or(text.starts_with(FIRST).then_some(&text)) else {
         let problem = match text.contains(FIRST) {
-            true => "the record is cut: its last line, `# end: …`, is missing",
-            false => "holds neither a run nor a golden file",
+            true => "the record is truncated: its last line, `# end: …`, is missing",
+            false => "contains neither a run nor a golden file",
         };
         return Err(Unreadable::new(file, problem));
     };
@@ -72,7 +72,7 @@ fn head(file: &Path, golden: &Golden<'_>) -> Result<Head, Unreadable> {
         own.then(|| name.to_owned())
     });
     let Some(bodies) = bodies.collect::<Option<Vec<String>>>() else {
-        return Err(Unreadable::new(file, "the columns are not those of bodies"));
+        return Err(Unreadable::new(file, "the columns do not match the bodies"));
     };
     let digits = |digits| match digits {
         Digits::Single => StoredDigits::Single,

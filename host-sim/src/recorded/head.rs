@@ -1,4 +1,4 @@
-//! What a recorded run was.
+//! The head of a recorded run.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::report::summary::SetValue;
 
-/// What a run left.
+/// The kind of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
@@ -17,7 +17,7 @@ pub enum Kind {
     Golden,
 }
 
-/// A number beside those of the bodies.
+/// A number besides those of the bodies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Value {
     /// Its name, that of a read-out's column in a trace.
@@ -26,12 +26,12 @@ pub struct Value {
     pub unit: Option<String>,
 }
 
-/// What a recorded run was. SI units.
+/// The properties of a recorded run. SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Head {
     /// The file that holds its samples.
     pub file: PathBuf,
-    /// What it left.
+    /// The kind of the recording.
     pub kind: Kind,
     /// The scene's name.
     pub scene: String,
@@ -41,11 +41,11 @@ pub struct Head {
     pub newton: Option<u32>,
     /// ρ∞, of the scheme that has it.
     pub rho: Option<f64>,
-    /// How dampers acted, where it is known.
+    /// The damping method, if known.
     pub damping: Option<String>,
     /// The precision's name.
     pub precision: String,
-    /// How orientations were stored.
+    /// The representation of orientations.
     pub orientation: String,
     /// \[s\] the step.
     pub step: f64,
@@ -55,7 +55,7 @@ pub struct Head {
     pub numerals: Numerals,
     /// Names of the bodies in the model's order.
     pub bodies: Vec<String>,
-    /// What else was recorded, but for energies.
+    /// The other recorded values, except energies.
     pub values: Vec<Value>,
     /// `ok`, or why it ended early; `None` where that is not recorded.
     pub status: Option<String>,
@@ -69,7 +69,7 @@ pub struct Head {
     pub model: Option<u64>,
     /// The version of host-sim that ran it.
     pub version: Option<String>,
-    /// What could not be held against anything, a sentence each.
+    /// Properties that could not be checked, one sentence each.
     pub unchecked: Vec<String>,
 }
 

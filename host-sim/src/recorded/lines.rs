@@ -1,7 +1,7 @@
-//! A text of any size, line by line, with what tells whether it is the one that was written.
+//! A text of any size, line by line, with a check that it is unchanged.
 //!
-//! `file => lines, their numbers, a hash of all`. Only a line is in memory at a time. Line ends may have been
-//! turned to those of another system; nothing else may.
+//! `file => lines, their numbers, a hash of all`. Only one line is in memory at a time. Line ends may have been
+//! converted to those of another system; nothing else may differ.
 
 use std::fs::File;
 use std::io::{BufRead as _, BufReader, Read as _};
@@ -12,8 +12,8 @@ use dbd_scene::file::open;
 use crate::recorded::unreadable::Unreadable;
 use crate::report::trace::TextHash;
 
-/// What is to be done about a file that another program has written.
-const AS_WRITTEN: &str = "compare takes the file as `run` has written it; what a spreadsheet or an editor has saved \
+/// The remedy for a file that another program has written.
+const AS_WRITTEN: &str = "compare needs the file exactly as `run` wrote it; what a spreadsheet or an editor has saved \
                           is another";
 
 /// The lines of a file.
@@ -27,20 +27,20 @@ pub struct Lines {
     hash: TextHash,
 }
 
-/// How files begin that are not UTF-8, or no text.
+/// First bytes of files that are not UTF-8 text.
 const BEGINNINGS: [(&[u8], &str); 5] = [
-    (&[0xff, 0xfe], "it is UTF-16"),
-    (&[0xfe, 0xff], "it is UTF-16"),
-    (&[0xef, 0xbb, 0xbf], "it begins with a byte order mark, which `run` does not write"),
-    (&[0x1f, 0x8b], "it is compressed (gzip)"),
-    (b"PK", "it is an archive (zip)"),
+    (&[0xff, 0xfe], "the file is UTF-16"),
+    (&[0xfe, 0xff], "the file is UTF-16"),
+    (&[0xef, 0xbb, 0xbf], "the file begins with a byte order mark, which `run` does not write"),
+    (&[0x1f, 0x8b], "the file is compressed (gzip)"),
+    (b"PK", "the file is an archive (zip)"),
 ];
 
 impl Lines {
     /// Opens a file.
     ///
     /// # Errors
-    /// Where it cannot be read, or is no UTF-8 text as its first bytes show.
+    /// If it cannot be read, or its first bytes are not UTF-8 text.
     pub fn open(file: &Path) -> Result<Self, Unreadable> {
         let failed = |reason| Unreadable::system(file, &reason);
         let mut input = BufReader::new(open(file).map_err(failed)?);
@@ -56,7 +56,7 @@ impl Lines {
         Ok(Self { file: file.to_owned(), input, buffer, number: 0, whole: true, hash })
     }
 
-    /// The next line without its end; `None` after the last. A line of more than `limit` bytes is none of a trace.
+    /// The next line without its end; `None` after the last. A trace has no line of more than `limit` bytes.
     ///
     /// # Errors
     /// Where it cannot be read, is longer, or is not UTF-8.
@@ -71,7 +71,9 @@ impl Lines {
         if self.whole {
             self.buffer.pop_if(|byte| *byte == b'\r');
         } else if self.buffer.len() as u64 > limit {
-            return Err(self.wrong(format!("the line is longer than {limit} bytes: no row is")));
+            return Err(
+                self.wrong(format!("the line is longer than {limit} bytes, the limit for a row"))
+            );
         }
         self.hash.add(&self.buffer);
         if self.whole {
@@ -103,7 +105,7 @@ impl Lines {
         self.number
     }
 
-    /// Whether the last line read had an end; where it has not, the file was cut within it.
+    /// Whether the last line read had a line end; if not, the file was truncated within it.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         self.whole
@@ -115,7 +117,7 @@ impl Lines {
         self.hash
     }
 
-    /// Something is wrong with the last line read.
+    /// An error in the last line read.
     #[must_use]
     pub fn wrong(&self, problem: impl Into<String>) -> Unreadable {
         Unreadable::new(&self.file, problem).at_line(self.number.max(1))

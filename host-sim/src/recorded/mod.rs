@@ -1,15 +1,15 @@
-//! Runs that were recorded, read back: what they are, and their samples in order.
+//! Recorded runs, read back: their heads and their samples in order.
 //!
-//! `path => head, rows; or file, line and column of what is wrong`.
+//! `path => head, rows; or file, line and column of the error`.
 //!
-//! - [`unreadable`]: what can be wrong.
+//! - [`unreadable`]: the errors.
 //! - [`lines`]: a text of any size, line by line.
-//! - [`head`]: what a run was.
+//! - [`head`]: the properties of a run.
 //! - [`row`], [`row_text`]: a sample, and its line.
-//! - [`summary`]: what is needed of a `summary.json`.
-//! - [`trace`]: the rows of a `trace.csv`, held against its summary.
-//! - [`golden`]: a golden file, by itself or within what a console showed.
-//! - [`run`]: either, by the path that a user gives.
+//! - [`summary`]: the needed keys of a `summary.json`.
+//! - [`trace`]: the rows of a `trace.csv`, checked against its summary.
+//! - [`golden`]: a golden file, by itself or within a console log.
+//! - [`run`]: either of them, by its path.
 
 pub mod golden;
 pub mod head;

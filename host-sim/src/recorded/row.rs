@@ -13,9 +13,9 @@ pub struct Row {
     pub bodies: Vec<BodyNumbers>,
     /// \[J\] kinetic, potential and total energy, where they were recorded.
     pub energies: Option<[f64; 3]>,
-    /// Read-outs and what else was recorded, in the head's order.
+    /// Read-outs and other recorded values, in the head's order.
     pub values: Vec<f64>,
-    /// Turn counts of the torsion springs, where they were recorded.
+    /// Revolution counts of the torsion springs, if recorded.
     pub turns: Option<Vec<i32>>,
     /// The hash of the state's stored words, where it is known.
     pub hash: Option<u64>,

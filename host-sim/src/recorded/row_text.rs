@@ -1,18 +1,18 @@
 //! A line of a trace and its numbers.
 //!
-//! `line, names, digits => row; or the column that holds no number`.
+//! `line, names, digits => row; or the column without a number`.
 
 use dbd_plant::numerals::{Digits, Numerals};
 use dbd_scene::BODY_COLUMNS;
 
 use crate::recorded::row::Row;
 
-/// What is wrong with a line.
+/// An error in a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrongText {
-    /// The place in the line, in characters from 1.
+    /// The position in the line, in characters from 1.
     pub column: usize,
-    /// What is wrong.
+    /// The problem.
     pub problem: String,
 }
 
@@ -47,7 +47,7 @@ pub fn place(line: &str, number: usize) -> usize {
     1 + before.count()
 }
 
-/// What to say of a line whose names are separated by something else than commas.
+/// The error for a line whose names are not separated by commas.
 #[must_use]
 pub fn separated(line: &str) -> Option<&'static str> {
     if line.contains(',') {
@@ -56,17 +56,20 @@ pub fn separated(line: &str) -> Option<&'static str> {
     let by = [
         (
             ';',
-            "columns are separated by commas, not by semicolons: a spreadsheet has saved this file",
+            "columns must be separated by commas, not semicolons: a spreadsheet has saved this file",
         ),
-        ('\t', "columns are separated by commas, not by tabs: another program has saved this file"),
+        (
+            '\t',
+            "columns must be separated by commas, not tabs: another program has saved this file",
+        ),
     ];
     by.into_iter().find(|(mark, _)| line.contains(*mark)).map(|(_, words)| words)
 }
 
-/// Reads a line into a row of as many bodies and values.
+/// Reads a line into a row of the given numbers of bodies and values.
 ///
 /// # Errors
-/// The first column that is missing, one too many, or holds no number.
+/// The first column that is missing, superfluous, or not a number.
 pub fn read(
     line: &str,
     names: &[String],
@@ -75,14 +78,14 @@ pub fn read(
 ) -> Result<(), WrongText> {
     let mut texts = line.split(',');
     let mut next = 0;
-    // A state is finite; a read-out may be without a number.
+    // A state is finite; a read-out may be NaN.
     let mut number = |digits: Digits, finite: bool| -> Result<f64, WrongText> {
         let place = next;
         next += 1;
         let Some(text) = texts.next() else {
             let columns = names.len();
             let problem =
-                format!("the line has {place} of {columns} columns: it was cut or edited");
+                format!("the line has {place} of {columns} columns: it was truncated or edited");
             return Err(WrongText { column: line.chars().count() + 1, problem });
         };
         let name = names.get(place).map_or("", String::as_str);
@@ -94,12 +97,12 @@ pub fn read(
             let shown: String = text.chars().take(40).collect();
             let precision = if digits == Digits::Single { " of single precision" } else { "" };
             return Err(wrong(format!(
-                "`{shown}` is no number{precision} that a trace has: column `{name}`"
+                "column `{name}`: `{shown}` is not a number{precision} as written in a trace"
             )));
         };
         if finite && !value.is_finite() {
             return Err(wrong(format!(
-                "`{text}` stands for `{name}`, which is finite in every row of a trace"
+                "column `{name}`: `{text}` is not finite, as it must be in every row of a trace"
             )));
         }
         Ok(value)
@@ -162,7 +165,7 @@ mod tests {
         };
         assert_eq!(
             wrong(",NaN", ""),
-            (50, "the line has 17 of 18 columns: it was cut or edited".into())
+            (50, "the line has 17 of 18 columns: it was truncated or edited".into())
         );
         assert_eq!(
             wrong("NaN", "NaN,"),
@@ -171,9 +174,12 @@ mod tests {
         let (column, problem) = wrong("-0.0", "-0,0");
         assert_eq!((column, &*problem), (51, "the line has 19 columns, not 18: it was edited"));
         for (text, part) in [
-            ("nan", "`nan` is no number of single precision that a trace has: column `b.y`"),
-            ("NaN", "`NaN` stands for `b.y`, which is finite"),
-            ("1e39", "`1e39` is no number of single precision"),
+            (
+                "nan",
+                "column `b.y`: `nan` is not a number of single precision as written in a trace",
+            ),
+            ("NaN", "column `b.y`: `NaN` is not finite"),
+            ("1e39", "`1e39` is not a number of single precision"),
         ] {
             let (column, problem) = wrong("-0.0", text);
             assert_eq!(column, 9);

@@ -14,7 +14,7 @@ use crate::recorded::row::Row;
 use crate::recorded::trace::TraceReader;
 use crate::recorded::unreadable::Unreadable;
 
-/// What `run` leaves.
+/// The files that `run` writes.
 const TRACE: &str = "trace.csv";
 const SUMMARY: &str = "summary.json";
 
@@ -36,7 +36,7 @@ impl Recorded {
     /// Opens a recorded run.
     ///
     /// # Errors
-    /// Where there is none, it cannot be read, or its head is damaged.
+    /// If there is no run, it cannot be read, or its head is damaged.
     pub fn open(path: &Path) -> Result<Self, Unreadable> {
         let trace = |file: &Path, summary: &Path| {
             let (head, reader) = TraceReader::open(file, summary)?;
@@ -51,10 +51,10 @@ impl Recorded {
         }
     }
 
-    /// The next row; `None` after the last, when all was found to be whole.
+    /// The next row; `None` after the last, if the run is complete.
     ///
     /// # Errors
-    /// What is wrong with the row, or with the whole.
+    /// An error in the row or in the whole run.
     pub fn next_row(&mut self) -> Result<Option<&Row>, Unreadable> {
         match &mut self.rows {
             Rows::Trace(reader) => reader.next_row(),
@@ -71,14 +71,14 @@ enum Files {
     Golden,
 }
 
-/// The files that a path stands for.
+/// The files that a path refers to.
 fn files(path: &Path) -> Result<Files, Unreadable> {
     let Ok(of) = fs::metadata(path) else {
-        let missing = Unreadable::new(path, "there is no such file or folder");
+        let missing = Unreadable::new(path, "no such file or folder");
         let meant = Path::new("out").join(path);
         let remedy = match meant.join(SUMMARY).exists() {
             true => format!("did you mean {}?", meant.display()),
-            false => "name the folder of a run (out/four-bar), its trace.csv or summary.json, or a golden file".into(),
+            false => "give the folder of a run (out/four-bar), its trace.csv or summary.json, or a golden file".into(),
         };
         return Err(missing.with_remedy(remedy));
     };
@@ -94,7 +94,7 @@ fn files(path: &Path) -> Result<Files, Unreadable> {
         Some("csv") => both(path, path.to_owned(), beside(SUMMARY)),
         Some("json") => both(path, beside(TRACE), path.to_owned()),
         _ => {
-            // A trace by another name would be without its summary.
+            // A trace with another name would have no summary.
             let mut start = [0; 5];
             let read = open(path).and_then(|mut file| file.read(&mut start));
             read.map_err(|reason| Unreadable::system(path, &reason))?;
@@ -118,25 +118,25 @@ fn below(folder: &Path) -> String {
     runs.join(" or ")
 }
 
-/// A trace and its summary, where both are there.
+/// A trace and its summary, if both exist.
 fn both(called: &Path, file: PathBuf, summary: PathBuf) -> Result<Files, Unreadable> {
     let remedy = "a trace is read with the summary.json beside it, which says of what it is: precision, step, how far \
                   the run came; name the folder of a run, as `run` has written it";
     match (file.is_file(), summary.is_file()) {
         (true, true) => Ok(Files::Run { file, summary }),
         (false, false) => {
-            let problem = format!("holds no run: there is neither {TRACE} nor {SUMMARY}");
+            let problem = format!("contains no run: {TRACE} and {SUMMARY} are missing");
             let meant = below(called);
             let remedy =
                 if meant.is_empty() { remedy.to_owned() } else { format!("did you mean {meant}?") };
             Err(Unreadable::new(called, problem).with_remedy(remedy))
         }
         (true, false) => {
-            Err(Unreadable::new(&file, format!("there is no {SUMMARY} beside it"))
+            Err(Unreadable::new(&file, format!("{SUMMARY} is missing next to it"))
                 .with_remedy(remedy))
         }
         (false, true) => {
-            Err(Unreadable::new(&summary, format!("there is no {TRACE} beside it"))
+            Err(Unreadable::new(&summary, format!("{TRACE} is missing next to it"))
                 .with_remedy(remedy))
         }
     }

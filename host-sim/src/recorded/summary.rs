@@ -1,7 +1,7 @@
-//! What is needed of a `summary.json` to read the trace beside it.
+//! The keys of a `summary.json` that are needed to read its trace.
 //!
-//! `file => keys`. Keys of later versions are passed over; a later format of the trace is refused. What earlier
-//! versions did not write is `None`.
+//! `file => keys`. Keys of later versions are ignored; a later format of the trace is an error. Keys that earlier
+//! versions did not write are `None`.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::recorded::unreadable::Unreadable;
 use crate::report::summary::SetValue;
 use crate::report::trace::FORMAT;
 
-/// What a summary says of its run, as far as it is needed.
+/// The needed keys of a summary.
 #[derive(Clone, Debug, Deserialize)]
 pub struct RunSummary {
     /// Version of host-sim.
@@ -32,7 +32,7 @@ pub struct RunSummary {
     /// ρ∞, of the scheme that has it.
     #[serde(default)]
     pub rho: Option<f64>,
-    /// How dampers acted, where not in the scheme's own way.
+    /// The damping method, if not the scheme's own.
     pub damping: Option<String>,
     /// The precision.
     pub precision: String,
@@ -76,15 +76,15 @@ impl RunSummary {
     /// Reads a summary.
     ///
     /// # Errors
-    /// Where it cannot be read, is none, or of a later format.
+    /// If it cannot be read, is not a summary, or has a later format.
     pub fn read(file: &Path) -> Result<Self, Unreadable> {
         let failed = |reason| Unreadable::system(file, &reason);
         let text = read(file, MAX_BYTES).map_err(failed)?;
         let summary: Self = serde_json::from_slice(&text).map_err(|error| {
-            // The place is said by ours; serde's own stands at the end of its words.
+            // The position is reported separately; serde's is at the end of its message.
             let words = error.to_string();
             let words = words.split(" at line ").next().unwrap_or_default();
-            let wrong = Unreadable::new(file, format!("is no summary of a run: {words}"));
+            let wrong = Unreadable::new(file, format!("is not a summary of a run: {words}"));
             let wrong = wrong.at_line(error.line().max(1) as u64).at_column(error.column().max(1));
             wrong.with_remedy("run the scene again: its trace and its summary belong together")
         })?;
@@ -96,16 +96,16 @@ impl RunSummary {
                 by.unwrap_or_default(),
                 env!("CARGO_PKG_VERSION"),
             ))
-            .with_remedy("compare with the program that wrote it, or run the scene again with this one"));
+            .with_remedy("compare with the program that wrote it, or run the scene again with this program"));
         }
         let times = [("step", summary.step), ("duration", summary.duration)];
         if let Some((key, time)) =
             times.iter().find(|(_, time)| !(time.is_finite() && *time >= 0.0))
         {
-            return Err(wrong(format!("`{key}` is {time}, which is no time")));
+            return Err(wrong(format!("`{key}` is {time}, which is not a valid time")));
         }
         if summary.step == 0.0 {
-            return Err(wrong("`step` is 0, which is no step".into()));
+            return Err(wrong("`step` is 0, which is not a valid step".into()));
         }
         Ok(summary)
     }

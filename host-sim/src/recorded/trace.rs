@@ -1,8 +1,8 @@
-//! The rows of a `trace.csv`, held against the summary beside it.
+//! The rows of a `trace.csv`, checked against its summary.
 //!
-//! `trace.csv, summary.json => rows; or the line that is damaged, cut off, edited or another's`. Columns are those of
-//! [`dbd_scene::Scene::columns`], texts those of [`crate::report::TraceWriter`]. What only the whole tells is told
-//! after the last row.
+//! `trace.csv, summary.json => rows; or the line that is damaged, truncated, edited or of another run`. Columns are
+//! those of [`dbd_scene::Scene::columns`], texts those of [`crate::report::TraceWriter`]. Errors that only the whole
+//! file shows are reported after the last row.
 
 use std::path::{Path, PathBuf};
 
@@ -29,10 +29,10 @@ const LONGEST_NUMBER: u64 = 32;
 /// Times are whole multiples of the step, relative.
 const ROUNDING: f64 = 1e-9;
 
-/// What is to be done about a trace that is not whole.
+/// The remedy for an incomplete trace.
 const AGAIN: &str = "run the scene again: its trace and its summary belong together";
 
-/// How many rows a trace has, where no summary says it.
+/// The number of rows of a trace if no summary states it.
 fn count(file: &Path, header: &str) -> Result<u64, Unreadable> {
     let mut lines = Lines::open(file)?;
     let (mut rows, mut begun) = (0, false);
@@ -43,12 +43,12 @@ fn count(file: &Path, header: &str) -> Result<u64, Unreadable> {
     Ok(rows)
 }
 
-/// What a message calls a list.
+/// A list in a message.
 fn listed(names: &str) -> &str {
     if names.is_empty() { "none" } else { names }
 }
 
-/// A trace that is read row by row.
+/// A trace, read row by row.
 #[derive(Debug)]
 pub struct TraceReader {
     lines: Lines,
@@ -70,12 +70,12 @@ impl TraceReader {
     /// Opens a trace with its summary and reads its head.
     ///
     /// # Errors
-    /// Where one of them cannot be read, or they do not belong together.
+    /// If one of them cannot be read, or they do not belong together.
     pub fn open(file: &Path, summary_file: &Path) -> Result<(Head, Self), Unreadable> {
         let summary = RunSummary::read(summary_file)?;
         let names = (&*summary.precision, &*summary.orientation);
         let Some(numerals) = Numerals::of_names(names.0, names.1) else {
-            let problem = format!("the precision `{}` is not known to this program", names.0);
+            let problem = format!("unknown precision `{}`", names.0);
             return Err(Unreadable::new(summary_file, problem));
         };
         let mut lines = Lines::open(file)?;
@@ -94,7 +94,7 @@ impl TraceReader {
         if known != columns.readouts.iter().map(String::as_str).collect::<Vec<_>>() {
             let (has, says) = (columns.readouts.join(", "), known.join(", "));
             let problem = format!(
-                "the read-outs are {}, those of {} {}: a column is missing, or they are of different runs",
+                "the read-outs are {}, those of {} {}: a column is missing, or the files belong to different runs",
                 listed(&has),
                 summary_file.display(),
                 listed(&says),
@@ -108,7 +108,7 @@ impl TraceReader {
         let mut unchecked = Vec::new();
         if summary.trace_hash.is_none() {
             unchecked.push(format!(
-                "{} is of an earlier version and has no hash of its trace: that no number was edited since is not known",
+                "{} was written by an earlier version without a hash of its trace: edited numbers cannot be detected",
                 summary_file.display()
             ));
         }
@@ -158,10 +158,10 @@ impl TraceReader {
         Ok((head, reader))
     }
 
-    /// The next row; `None` after the last, once all of them go with the summary.
+    /// The next row; `None` after the last, if all of them match the summary.
     ///
     /// # Errors
-    /// What is wrong with the row, or with the whole.
+    /// An error in the row or in the whole trace.
     pub fn next_row(&mut self) -> Result<Option<&Row>, Unreadable> {
         if self.ended {
             return Ok(None);
@@ -175,7 +175,7 @@ impl TraceReader {
         let before = self.row.step;
         let read = read(line, &self.names, self.numerals, &mut self.row);
         if !self.lines.is_whole() {
-            let cut = self.lines.wrong("the file ends within this line: it was cut off");
+            let cut = self.lines.wrong("the file ends within this line: it was truncated");
             return Err(cut.with_remedy(AGAIN));
         }
         if let Err(wrong) = read {
@@ -189,14 +189,14 @@ impl TraceReader {
         Ok(Some(&self.row))
     }
 
-    /// Sees that a row comes as many steps after the one before as the others do.
+    /// Checks that the rows are equally spaced.
     fn in_order(&mut self, before: u64) -> Result<(), Unreadable> {
         let time = self.row.time;
         let steps = (time / self.summary.step).round();
         let whole = (steps * self.summary.step - time).abs() <= ROUNDING * time.abs();
         if !(whole && (0.0..9e15).contains(&steps)) {
             let problem = format!(
-                "the time {time} s is no multiple of the step, {} s, that {} states",
+                "the time {time} s is not a multiple of the step, {} s, in {}",
                 self.summary.step,
                 self.summary_file.display()
             );
@@ -214,7 +214,7 @@ impl TraceReader {
         let wrong = |problem: String| Err(self.lines.wrong(problem).with_remedy(AGAIN));
         if step <= before {
             return wrong(format!(
-                "the time {} does not come after that of the row before",
+                "the time {} is not after that of the previous row",
                 display(time)
             ));
         }
@@ -231,7 +231,7 @@ impl TraceReader {
         Ok(())
     }
 
-    /// Holds the whole against the summary.
+    /// Checks the whole trace against the summary.
     fn end(&mut self) -> Result<(), Unreadable> {
         let summary = &self.summary;
         let named = self.summary_file.display();
@@ -240,7 +240,7 @@ impl TraceReader {
             return wrong("the trace has no rows: its run failed before the first sample".into());
         }
         if !self.lines.is_whole() {
-            return wrong("the file ends within this line: it was cut off".into());
+            return wrong("the file ends within this line: it was truncated".into());
         }
         let last = self.row.time;
         let rest = summary.duration - last;
@@ -253,7 +253,7 @@ impl TraceReader {
         if missing || summary.samples.is_some_and(|samples| samples > self.rows) {
             let of = summary.samples.map(|all| format!(" of {all} rows")).unwrap_or_default();
             return wrong(format!(
-                "the trace ends after {}{of}, at t = {}, where {named} says that the run came to {}: rows are missing",
+                "the trace ends after {}{of}, at t = {}, but {named} states a run to {}: rows are missing",
                 self.rows,
                 display(last),
                 display(summary.duration),
@@ -271,7 +271,7 @@ impl TraceReader {
         }
         if self.state_differs() {
             return wrong(format!(
-                "the last row does not have the bits of `state_hash` in {named}: it was edited, or they are of \
+                "the last row does not match `state_hash` in {named}: it was edited, or the files belong to \
                  different runs"
             ));
         }
@@ -295,7 +295,8 @@ impl TraceReader {
     fn state_differs(&self) -> bool {
         let summary = &self.summary;
         let Some(hash) = &summary.state_hash else { return false };
-        // Of Euler angles and fixed point the stored words are others than the columns; earlier summaries do not hold the turn counts.
+        // With Euler angles and fixed point the stored words differ from the columns; earlier summaries lack the
+        // revolution counts.
         let plain = PrecisionName::of_name(&summary.precision).is_none_or(PrecisionName::is_plain);
         if !plain
             || summary.orientation != OrientationName::Quaternion.name()

@@ -1,4 +1,4 @@
-//! Why a recorded run cannot be read: file, line and column, what is wrong, what would be right.
+//! Why a recorded run cannot be read: file, line and column, problem, remedy.
 
 use std::fmt;
 use std::io;
@@ -13,13 +13,13 @@ use thiserror::Error;
 pub struct Unreadable {
     /// The file or folder.
     pub file: PathBuf,
-    /// Its line, from 1; `None` where it is about the whole.
+    /// Its line, from 1; `None` for the whole file.
     pub line: Option<u64>,
     /// The column of the line, in characters from 1.
     pub column: Option<u64>,
-    /// What is wrong.
+    /// The problem.
     pub problem: String,
-    /// What would be right.
+    /// The remedy.
     pub remedy: Option<String>,
 }
 
@@ -41,14 +41,14 @@ impl Diagnostic for Unreadable {
 }
 
 impl Unreadable {
-    /// Something is wrong with a file as a whole.
+    /// An error of a whole file.
     #[must_use]
     pub fn new(file: &Path, problem: impl Into<String>) -> Self {
         let (line, column, remedy) = (None, None, None);
         Self { file: file.to_owned(), line, column, problem: problem.into(), remedy }
     }
 
-    /// The system does not let it be read.
+    /// The system cannot read it.
     #[must_use]
     pub fn system(file: &Path, reason: &io::Error) -> Self {
         Self::new(file, format!("cannot be read: {reason}"))
@@ -60,13 +60,13 @@ impl Unreadable {
         Self { line: Some(line), ..self }
     }
 
-    /// The same with the place in its line, in characters from 1.
+    /// The same with the position in its line, in characters from 1.
     #[must_use]
     pub fn at_column(self, column: usize) -> Self {
         Self { column: Some(column as u64), ..self }
     }
 
-    /// The same with what would be right.
+    /// The same with a remedy.
     #[must_use]
     pub fn with_remedy(self, remedy: impl Into<String>) -> Self {
         Self { remedy: Some(remedy.into()), ..self }

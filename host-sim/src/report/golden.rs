@@ -1,16 +1,16 @@
-//! What a comparison with a golden run came to, in the summary and in words.
+//! The result of a comparison with a golden run, in the summary and as text.
 
 use miette::Diagnostic;
 use serde::Serialize;
 use thiserror::Error;
 
-/// A run that is not the golden one.
+/// A run that differs from the golden run.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{words}")]
 pub struct NotGolden {
     /// What differs, where and how far.
     pub words: String,
-    /// What to do about it.
+    /// The remedy.
     pub help: Option<String>,
 }
 
@@ -20,16 +20,16 @@ impl Diagnostic for NotGolden {
     }
 }
 
-/// What became of the comparison, as the summary has it.
+/// The result of the comparison in the summary.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct GoldenOutcome {
     /// The golden file.
     pub file: String,
     /// `equal`, `within` (its bands), `blessed` or `different`.
     pub verdict: &'static str,
-    /// The same in words.
+    /// The same as text.
     pub words: String,
-    /// What is wrong, where it is different.
+    /// The difference, if there is one.
     #[serde(skip)]
     pub failure: Option<NotGolden>,
 }

@@ -1,10 +1,10 @@
-//! What is left of a run.
+//! The results of a run.
 //!
 //! - [`trace`]: every sample, as rows.
-//! - [`golden`]: what a comparison came to.
-//! - [`statistics`], [`summary`]: what they amount to.
-//! - [`mod@text`]: what its page says in words.
-//! - [`mod@show`]: the files that people look at.
+//! - [`golden`]: the result of a golden comparison.
+//! - [`statistics`], [`summary`]: figures over all samples.
+//! - [`mod@text`]: the texts of its page.
+//! - [`mod@show`]: the files for people.
 
 pub mod golden;
 pub mod show;

@@ -1,7 +1,7 @@
-//! The files of a run that people look at.
+//! The files of a run for people.
 //!
-//! `(recording, words) => report.html, SCENE.glb`. What was not asked for is not left by an earlier
-//! run either.
+//! `(recording, words) => report.html, SCENE.glb`. Files of an earlier run that were not requested are
+//! removed.
 
 use std::io::{self, Write as _};
 
@@ -10,7 +10,7 @@ use dbd_report::output::set::FileSet;
 use dbd_report::{Data, Recorded, Recording, gltf, page};
 use dbd_scene::Scene;
 
-/// What is asked for.
+/// The requested files.
 pub struct Shown<'s> {
     /// Whether there is a page.
     pub report: bool,
@@ -20,7 +20,7 @@ pub struct Shown<'s> {
     pub animation: &'s str,
 }
 
-/// Writes what is asked for of a run of a scene; `words` are those of its page, `modes` what swings there.
+/// Writes the requested files of a run; `words` are the texts of its page, `modes` its animated modes.
 ///
 /// # Errors
 /// Where a file cannot be written, or the animation would be larger than 4 GiB.

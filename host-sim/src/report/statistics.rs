@@ -1,7 +1,7 @@
-//! What the samples of a run amount to.
+//! Statistics over the samples of a run.
 //!
 //! `samples => energies, drift, RMS error, largest extension, last hash; figures of a column`, one pass,
-//! nothing kept.
+//! no samples stored.
 
 use dbd_scene::Scene;
 use serde::Serialize;
@@ -26,7 +26,7 @@ impl Line {
         let dx = x - self.mean_x;
         self.mean_x += dx / self.count;
         self.variation += dx * (x - self.mean_x);
-        // The old mean of x with the new one of y, or the other way round; never both old.
+        // The old mean of x with the new one of y, or vice versa; never both old.
         self.mean_y += (y - self.mean_y) / self.count;
         self.covariation += dx * (y - self.mean_y);
     }
@@ -85,7 +85,7 @@ impl Statistics {
         let error = energy - *self.first.get_or_insert(energy);
         self.last = energy;
         self.last_time = time;
-        // The error, not the energy: its digits are not spent on the constant.
+        // The error instead of the energy, to keep its digits.
         self.line.push(time, error);
         self.squares += error * error;
     }
@@ -114,7 +114,7 @@ impl Statistics {
         (self.squares / self.line.count).sqrt()
     }
 
-    /// The torsion springs' turn counts in the last sample.
+    /// The torsion springs' revolution counts in the last sample.
     #[must_use]
     pub fn turns(&self) -> &[i32] {
         &self.turns
@@ -199,7 +199,7 @@ impl Figures {
     }
 }
 
-/// What a column of a read-out showed, SI units.
+/// The figures of a read-out column, SI units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReadoutFigures {
     /// The column's name.

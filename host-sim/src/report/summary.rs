@@ -1,6 +1,6 @@
-//! `summary.json` and the table of the same: what a run was and what it came to.
+//! `summary.json` and its table: the settings and results of a run.
 //!
-//! Keys and their order are fixed. Of a run that failed, `steps` and `duration` say how far it
+//! Keys and their order are fixed. For a failed run, `steps` and `duration` state how far it
 //! came, and `energy_final` and `state_hash` are those of the last row of its trace.
 
 use dbd_plant::digits::significant;
@@ -29,12 +29,12 @@ pub struct Summary {
     /// ρ∞, of the scheme that has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rho: Option<f64>,
-    /// How dampers acted, where that is not the scheme's own way.
+    /// The damping method, if it is not the scheme's own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping: Option<&'static str>,
     /// The precision's name.
     pub precision: &'static str,
-    /// How orientations are stored.
+    /// The representation of orientations.
     pub orientation: &'static str,
     /// The plane that a planar scene ran in.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -49,7 +49,7 @@ pub struct Summary {
     pub samples: u64,
     /// Force evaluations performed.
     pub force_evaluations: u64,
-    /// Those of a step of the method where nothing changes between steps; no key.
+    /// Those of a step of the method if nothing changes between steps; no key.
     #[serde(skip)]
     pub evaluations_per_step: u32,
     /// \[s\] time on the clock spent stepping.
@@ -62,7 +62,7 @@ pub struct Summary {
     pub energy_final: f64,
     /// \[W\] least-squares slope of the total energy over the samples.
     pub energy_drift_rate: f64,
-    /// \[J\] RMS of E − E(0) over the samples; `None` where energy is not meant to stay.
+    /// \[J\] RMS of E − E(0) over the samples; `None` if energy is not conserved by the scene.
     pub energy_rms_error: Option<f64>,
     /// \[m\] largest |L − L0| or |e| over samples and the joints' elements.
     pub max_joint_extension: f64,
@@ -73,11 +73,11 @@ pub struct Summary {
     pub frequency_bound_hz: f64,
     /// \[Hz\] estimate of the highest frequency at t = 0.
     pub frequency_estimate_hz: f64,
-    /// \[s\] 1/ω of the bound, or less where a body spins fast; `None` where nothing does either.
+    /// \[s\] 1/ω of the bound, or less if a body rotates fast; `None` without either limit.
     pub advised_step: Option<f64>,
     /// FNV-1a 64 over the state's words, 16 hexadecimal digits; `None` without a sample.
     pub state_hash: Option<String>,
-    /// The torsion springs' turn counts in the last row, which the hash holds and no column shows.
+    /// The torsion springs' revolution counts in the last row, which are part of the hash but of no column.
     pub turns: Vec<i32>,
     /// FNV-1a 64 over the bytes of `trace.csv`, 16 hexadecimal digits; `None` where none was written.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -97,34 +97,34 @@ pub struct Summary {
     /// The values of the file that were changed for this run.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub set: Vec<SetValue>,
-    /// What was moved to close the joints of the scene, where it has a table `assemble`.
+    /// Displacements that closed the joints of the scene, if it has a table `assemble`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub assembled: Option<String>,
-    /// What was moved to bring the scene to rest, where it says `settle = true`.
+    /// Displacements that brought the scene to equilibrium, if it has `settle = true`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settled: Option<String>,
     /// The joint that opened by the largest share of its free length; `None` where none has one.
     pub widest_joint: Option<JointOpening>,
-    /// What stops, ropes and contacts did, of those that were engaged.
+    /// The engagements of stops, ropes and contacts.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub engagements: Vec<Engagement>,
-    /// Where the energy came from and went, of a run that came to its end: of a scene with loads, inputs, or
+    /// The energy balance of a completed run, for a scene with loads, inputs, or
     /// interactions with dampers or memories.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_balance: Option<EnergyBalance>,
     /// The watch over the energy, where there was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub watch_energy: Option<EnergyWatch>,
-    /// What became of the comparison with a golden run, where there was one.
+    /// The result of the comparison with a golden run, if there was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub golden: Option<GoldenOutcome>,
-    /// \[Hz\] the lowest modes at t = 0, ascending, where they were asked for; negative where a mode runs
-    /// away, 0 where nothing holds it.
+    /// \[Hz\] the lowest modes at t = 0, ascending, where they were asked for; negative for an unstable
+    /// mode, 0 for a free one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modes: Option<Vec<f64>>,
-    /// What is probably not meant.
+    /// Warnings.
     pub warnings: Vec<String>,
-    /// What the read-outs showed, a list entry per column.
+    /// Figures of the read-outs, an entry per column.
     pub readouts: Vec<ReadoutFigures>,
 }
 
@@ -146,9 +146,9 @@ pub struct JointOpening {
 pub struct SetValue {
     /// Its path, `body.cart.mass`.
     pub path: String,
-    /// As the file has it; `None` where it has none.
+    /// The value in the file; `None` if it has none.
     pub before: Option<String>,
-    /// As it was for this run.
+    /// The value in this run.
     pub now: String,
 }
 
@@ -163,7 +163,7 @@ impl SetValue {
         scene.changed.iter().map(value).collect()
     }
 
-    /// What people read.
+    /// The report for people.
     #[must_use]
     pub fn text(&self) -> String {
         let before = self.before.as_deref().unwrap_or("none");
@@ -178,13 +178,13 @@ impl Summary {
         json(self)
     }
 
-    /// Says which file the scene comes from.
+    /// Sets the file of the scene.
     pub fn of_file(&mut self, file: Option<&SceneFile>) {
         self.scene_file = file.map(|file| file.place.clone());
         self.scene_hash = file.map(|file| file.hash.clone());
     }
 
-    /// Takes in what a watch over the energy saw, and that it ended the run.
+    /// Records the result of the energy watch, and whether it ended the run.
     pub fn of_watch(&mut self, watch: Option<EnergyWatch>, stop: Option<EnergyStop>) {
         self.watch_energy = watch;
         if let Some(stop) = stop {
@@ -195,12 +195,12 @@ impl Summary {
     /// The count of force evaluations, with its reason where it is higher than the method's.
     fn evaluations(&self) -> String {
         let (count, each) = (self.force_evaluations, u64::from(self.evaluations_per_step));
-        // A method that reuses the last one of a step has one more, the first.
+        // A method that reuses the last evaluation of a step has one more, the first.
         let anew = count.saturating_sub(self.steps * each + 1);
         if anew == 0 {
             return format!("{count} ({each} per step)");
         }
-        format!("{count} ({each} per step, {anew} anew where a table or a load had changed)")
+        format!("{count} ({each} per step, {anew} repeated after changes of a table or a load)")
     }
 
     /// The largest extension with its joint and time.
@@ -214,7 +214,7 @@ impl Summary {
         }
     }
 
-    /// What people read: a name and a text with units each.
+    /// The report for people: names and texts with units.
     #[must_use]
     pub fn rows(&self) -> Vec<(&'static str, String)> {
         let newton = match self.newton {
@@ -285,13 +285,13 @@ impl Summary {
                 [watch.largest, watch.limit].map(|joules| significant(joules, 4));
             let of = match watch.watched {
                 Watched::Change => "change from the start",
-                Watched::Rise => "rise above the least before",
-                Watched::Balance => "left by the balance",
+                Watched::Rise => "rise above the previous minimum",
+                Watched::Balance => "residual of the balance",
             };
             rows.push(("energy, watched", format!("{of} ≤ {largest} J, {limit} J allowed")));
         }
         if let Some(golden) = &self.golden {
-            // Of a difference the message says more.
+            // The message describes a difference in detail.
             let words = match &golden.failure {
                 Some(_) => "the run differs",
                 None => golden.words.lines().next().unwrap_or_default(),
@@ -311,7 +311,7 @@ impl Summary {
     }
 }
 
-/// What gave and took energy, and what none of it explains: `loads +1.2 J, dampers −0.3 J; 2e-9 J remain`.
+/// The energy balance and its residual: `loads +1.2 J, dampers −0.3 J; 2e-9 J remain`.
 fn account(balance: &EnergyBalance) -> String {
     let EnergyBalance { loads, inputs, anchors, dampers, laws, remains } = *balance;
     let joules = |value: f64| significant(value, 4).replace('-', "−");
@@ -331,7 +331,7 @@ fn account(balance: &EnergyBalance) -> String {
     format!("{work}; {} J remain", joules(remains))
 }
 
-/// Frequencies in words, those that nothing holds counted: `5 × 0 Hz, 3.68 Hz, 12.1 Hz`.
+/// Frequencies as text, free modes counted: `5 × 0 Hz, 3.68 Hz, 12.1 Hz`.
 fn frequencies(modes: &[f64]) -> String {
     let alike = modes.chunk_by(|one, other| *one == 0.0 && *other == 0.0);
     let said = alike.map(|group| match group {
@@ -341,7 +341,7 @@ fn frequencies(modes: &[f64]) -> String {
     said.collect::<Vec<_>>().join(", ")
 }
 
-/// What people read of a column of a read-out.
+/// The figures of a read-out column for people.
 fn readout(figures: &ReadoutFigures) -> String {
     let ReadoutFigures { name, unit, min, max, rms, last, time_of_max } = figures;
     let shown = |figure: &Option<f64>| figure.map_or("–".into(), |value| significant(value, 4));

@@ -1,4 +1,4 @@
-//! What the page of a run says in words.
+//! The texts of a run's page.
 //!
 //! `(scene, plan, summary) => failures, warnings, picture, tables, command line`, in HTML that needs no
 //! scripts.
@@ -12,12 +12,12 @@ use dbd_study::command::with_changes;
 
 use crate::report::summary::Summary;
 
-/// Of more bodies there is no still picture: nobody could tell them apart.
+/// Largest number of bodies in a still picture.
 const MOST_PICTURED: usize = 300;
-/// More warnings are counted.
+/// Largest number of listed warnings; the others are counted.
 const MOST_WARNINGS: usize = 20;
 
-/// The words of a run's page. `called` is what a command line calls the scene.
+/// The texts of a run's page. `called` is the scene's name on the command line.
 #[must_use]
 pub fn text(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Text {
     let failures = (summary.status != "ok").then(|| summary.status.clone());
@@ -28,12 +28,12 @@ pub fn text(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Text
         columns: Vec::new(),
         rows: rows.into_iter().map(cells).collect(),
     };
-    // Warnings stand at the head of the page.
+    // Warnings are shown at the top of the page.
     let mut rows = summary.rows();
     rows.retain(|(row, _)| *row != "warning");
     let note = summary.state_hash.as_ref().map(|hash| {
         format!(
-            "The same state hash, {hash}, means the same bits: every position, orientation and \
+            "Equal state hashes ({hash}) mean equal bits: every position, orientation and \
              velocity at the end of the run."
         )
     });
@@ -53,24 +53,24 @@ fn warnings(summary: &Summary) -> Vec<String> {
     let all = &summary.warnings;
     let mut warnings: Vec<String> = all.iter().take(MOST_WARNINGS).cloned().collect();
     if let more @ 1.. = all.len() - warnings.len() {
-        warnings.push(format!("{more} more, which `summary.json` has"));
+        warnings.push(format!("{more} more in `summary.json`"));
     }
     warnings
 }
 
-/// What made the run and its files.
+/// The versions of the program and its files.
 fn versions(summary: &Summary) -> Vec<(&'static str, String)> {
     let mut rows = vec![
         ("host-sim", summary.version.to_owned()),
-        ("format of the trace", summary.trace_format.to_string()),
-        ("format of this page's data", FORMAT.to_string()),
+        ("trace format", summary.trace_format.to_string()),
+        ("page data format", FORMAT.to_string()),
     ];
     rows.extend(summary.scene_file.iter().map(|file| ("scene file", file.clone())));
-    rows.extend(summary.scene_hash.iter().map(|hash| ("hash of its text", hash.clone())));
+    rows.extend(summary.scene_hash.iter().map(|hash| ("scene file hash", hash.clone())));
     rows
 }
 
-/// The command line of the run, with all that was chosen for it spelled out.
+/// The command line of the run, with all chosen options.
 fn command(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> String {
     let newton = summary.newton.map(|n| format!(" --newton {n}")).unwrap_or_default();
     let rho = summary.rho.map(|rho| format!(" --rho {rho}")).unwrap_or_default();

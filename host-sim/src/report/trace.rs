@@ -1,4 +1,4 @@
-//! `trace.csv`: a header, then one row per sample; nothing else, whatever was changed.
+//! `trace.csv`: a header, then one row per sample.
 //!
 //! `samples => rows`, streamed. Columns: time, per body position, quaternion, velocity and angular
 //! velocity, then the energies, then the read-outs ([`Scene::columns`]). Every number is the
@@ -11,11 +11,11 @@ use dbd_scene::Scene;
 
 use crate::simulate::Sample;
 
-/// The format of a trace: what its lines and columns mean. A change that readers would misread counts
-/// it up.
+/// The format version of a trace; incremented by every incompatible
+/// change.
 pub const FORMAT: u32 = 1;
 
-/// FNV-1a 64 over bytes (offset 0xcbf29ce484222325, prime 0x100000001b3), as they come.
+/// FNV-1a 64 over bytes (offset 0xcbf29ce484222325, prime 0x100000001b3), incrementally.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextHash(u64);
 
@@ -40,7 +40,7 @@ impl TextHash {
     }
 }
 
-/// Hashes what passes.
+/// A writer that hashes its output.
 struct Hashed<W> {
     to: W,
     hash: TextHash,
@@ -68,7 +68,7 @@ impl<W: Write> TraceWriter<W> {
     /// A trace with the scene's header.
     ///
     /// # Errors
-    /// Where the writer cannot take it.
+    /// If the writer fails.
     pub fn new(to: W, scene: &Scene) -> io::Result<Self> {
         let to = Hashed { to, hash: TextHash::default() };
         let mut rows = csv::Writer::from_writer(to);
@@ -82,7 +82,7 @@ impl<W: Write> TraceWriter<W> {
     /// Appends the row of a sample.
     ///
     /// # Errors
-    /// Where the writer cannot take it.
+    /// If the writer fails.
     pub fn row(&mut self, sample: &Sample<'_>) -> io::Result<()> {
         self.numbers(Digits::Double, &[sample.time])?;
         let numerals = sample.numerals;
@@ -108,10 +108,10 @@ impl<W: Write> TraceWriter<W> {
         Ok(())
     }
 
-    /// Writes what is buffered and returns the writer, with the hash of all that was written.
+    /// Flushes the buffer and returns the writer, with the hash of all output.
     ///
     /// # Errors
-    /// Where the writer cannot take it.
+    /// If the writer fails.
     pub fn finish(self) -> io::Result<(W, TextHash)> {
         let Hashed { to, hash } =
             self.rows.into_inner().map_err(|error| io::Error::other(error.to_string()))?;

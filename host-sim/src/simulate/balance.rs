@@ -1,14 +1,14 @@
-//! Where the energy of a run came from and where it went.
+//! The energy balance of a run.
 //!
-//! `(scene, method, plan; steps done) => work of loads, inputs and moved ground, what dampers and memories of laws took,
-//! what remains`.
+//! `(scene, method, plan; steps done) => work of loads, inputs and moved ground, losses in dampers and memories of
+//! laws, residual`.
 //!
-//! A second plant of the run goes along with it, a step at a time, so that the time of the first one's steps
-//! stays what it is. The powers at both ends of a step, each with the loads and signals of that step, make its
-//! work by the trapezoidal rule; from one jump or bend of loads and signals to the next its ends are corrected by
-//! differences (Gregory), which makes it of fourth order. Ground that jumps between two steps gives what the springs'
-//! energy jumps by. A law that remembers loses energy when its memory changes: the law's energy with the memory before less
-//! that with the memory after. Not seen is what happens within a step: a damper that stops a body in less.
+//! A second plant follows the run step by step, so that the timing of the first one's steps
+//! is not affected. The powers at both ends of a step, each with the loads and signals of that step, give its
+//! work by the trapezoidal rule; between jumps or kinks of loads and signals the ends are corrected by
+//! differences (Gregory), which makes it of fourth order. A jump of the ground between two steps adds the jump of the
+//! springs' energy. A law with memory loses energy when its memory changes: the law's energy with the old memory minus
+//! that with the new one. Events shorter than a step are not resolved, e.g. a damper that stops a body within it.
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::{energy, of_memories};
@@ -22,7 +22,7 @@ use serde::Serialize;
 
 type States = State<SceneModel<F64>>;
 
-/// What a run's energy came from: `E(t) − E(0) = loads + inputs + anchors − dampers − laws + remains`.
+/// The energy balance of a run: `E(t) − E(0) = loads + inputs + anchors − dampers − laws + remains`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct EnergyBalance {
     /// \[J\] work of the loads.
@@ -31,16 +31,16 @@ pub struct EnergyBalance {
     pub inputs: f64,
     /// \[J\] work of ground that inputs move.
     pub anchors: f64,
-    /// \[J\] what dampers took, those of interactions included.
+    /// \[J\] losses in dampers, those of interactions included.
     pub dampers: f64,
-    /// \[J\] what interactions lost when their memories changed: dry friction that slips.
+    /// \[J\] losses of interactions when their memories changed, e.g. slipping dry friction.
     pub laws: f64,
-    /// \[J\] what of the change of the energy none of them explains: errors of the scheme, of rounding and of
-    /// this account.
+    /// \[J\] the residual: errors of the scheme, of rounding and of
+    /// this balance.
     pub remains: f64,
 }
 
-/// Keeps account of a run.
+/// Accumulates the energy balance of a run.
 pub struct Balance {
     plant: Box<dyn AnyPlant>,
     /// The model that steps, its numbers taken as exact.
@@ -48,14 +48,14 @@ pub struct Balance {
     windows: Vec<LoadWindow>,
     initial: f64,
     work: EnergyBalance,
-    /// Since what acts last jumped or bent.
+    /// Since the last jump or kink of loads and signals.
     piece: Piece,
 }
 
 /// Powers \[W\] of loads, inputs, moved ground and dampers.
 type Powers = [f64; 4];
 
-/// Steps in which what acts is smooth.
+/// Steps with smooth loads and signals.
 #[derive(Clone, Default)]
 struct Piece {
     /// The first three powers, or as many as there are.
@@ -75,7 +75,7 @@ impl Piece {
         self.last.push(powers);
     }
 
-    /// \[J\] what the trapezoidal rule lacks at both ends in steps of `h` \[s\]: Gregory's differences of first and
+    /// \[J\] end correction of the trapezoidal rule in steps of `h` \[s\]: Gregory's differences of first and
     /// second order.
     fn correction(&self, h: f64) -> Powers {
         let ([a0, a1, a2], [b2, b1, b0]) = (&self.first[..], &self.last[..]) else {
@@ -90,7 +90,7 @@ impl Piece {
 }
 
 impl Balance {
-    /// The account of a run that begins; `None` of a scene without loads, inputs and dissipative interactions.
+    /// The balance of a new run; `None` for a scene without loads, inputs and dissipative interactions.
     ///
     /// # Errors
     /// Where there is no plant of the method with the plan's step.
@@ -125,7 +125,7 @@ impl Balance {
         let signals = self.plant.signals_at_end();
         let _ = self.plant.step();
         let next = self.plant.state();
-        // What acted in the step, where it ended.
+        // Loads and signals of the step, at its end.
         let end = State { step: state.step, signals, ..next.clone() };
         let (begun, ended) =
             (self.piece.last.last().copied().unwrap_or_default(), self.powers(&end));
@@ -147,13 +147,13 @@ impl Balance {
         [powers.loads, powers.inputs, powers.ground, powers.dampers]
     }
 
-    /// \[J\] what laws lost in a step when their memories changed.
+    /// \[J\] losses of laws in a step when their memories changed.
     fn forgotten(&self, before: &States, after: &States) -> f64 {
         if before.laws == after.laws {
             return 0.0;
         }
-        // The energy with the memory before less that with the memory after. The others settle memories at the beginning
-        // of a step. These settle them at its end, and forces of settled memories alone act: the work of their
+        // The energy with the old memory minus that with the new one. The other schemes update memories at the
+        // beginning of a step. These update them at its end, and only forces of updated memories act: the work of their
         // mean over a step is the mean of both poses.
         let at_end =
             [SchemeName::Leapfrog, SchemeName::GeneralizedAlpha, SchemeName::GeneralizedAlpha3]
@@ -169,7 +169,7 @@ impl Balance {
         }
     }
 
-    /// \[J\] by what ground that jumps changes the energy.
+    /// \[J\] the change of energy by a jump of the ground.
     fn jump(&self, before: &States, after: &States) -> f64 {
         let model = &self.model;
         let value = |signal: &Signal<f64>| signal.value;
@@ -184,7 +184,7 @@ impl Balance {
         of(after) - of(before)
     }
 
-    /// The account so far.
+    /// The balance so far.
     #[must_use]
     pub fn balance(&self) -> EnergyBalance {
         let mut work = self.work;
@@ -244,7 +244,7 @@ axis = [1, 0, 0]
 sine = { amplitude = "2 cm", frequency = 6 }
 "#;
 
-    /// The account of a run by a model that is not quite the one that steps.
+    /// The balance of a run by a slightly different model.
     fn balance(wrong: impl FnOnce(&mut SceneModel<F64>)) -> EnergyBalance {
         let scene = Scene::parse(SCENE, "driven.toml").unwrap();
         let request = Request { step: StepRequest::Given(1e-3), duration: 1.0, every: Some(0.1) };

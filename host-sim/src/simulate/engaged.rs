@@ -1,7 +1,7 @@
-//! What stops, ropes and contacts did in a run.
+//! Engagements of stops, ropes and contacts in a run.
 //!
-//! `(scene; plant at each look) => engagements`. An interaction is engaged while its quantity `depth` is above 0. What
-//! happens between two looks is not seen.
+//! `(scene; plant at each look) => engagements`. An interaction is engaged while its quantity `depth` is above 0.
+//! Engagements between two checks are not detected.
 
 use dbd_kernel::F64;
 use dbd_kernel::index::LawIndex;
@@ -13,16 +13,16 @@ use dbd_plant::time::{display, rounded};
 use dbd_scene::Scene;
 use serde::Serialize;
 
-/// What an interaction with a depth did, seen at the samples and about a thousand times over the run.
+/// The engagements of an interaction with a depth, checked at the samples and about a thousand times per run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Engagement {
-    /// What messages call it: ``limits `hinge.limits` (world–leaf)``.
+    /// Its name in messages: ``limits `hinge.limits` (world–leaf)``.
     pub interaction: String,
     /// \[s\] when it was first engaged.
     pub first: f64,
-    /// How often it came to be engaged, the start included.
+    /// Number of engagements, the start included.
     pub times: u32,
-    /// \[1\] the share of the looks at which it was engaged.
+    /// \[1\] the fraction of the checks at which it was engaged.
     pub share: f64,
     /// \[`unit`\] the largest depth.
     pub depth: f64,
@@ -35,7 +35,7 @@ pub struct Engagement {
 }
 
 impl Engagement {
-    /// What people read.
+    /// The report for people.
     #[must_use]
     pub fn words(&self) -> String {
         let time = |time: f64| display(rounded(time, 6));
@@ -58,7 +58,7 @@ impl Engagement {
     }
 }
 
-/// Watches over the depths of a scene's interactions.
+/// Monitors the depths of a scene's interactions.
 pub(super) struct Engagements {
     watched: Vec<Watched>,
     looks: u32,
@@ -68,7 +68,7 @@ struct Watched {
     readout: Readout<F64>,
     looks: u32,
     engaged: bool,
-    /// What it did so far: 0 times where nothing.
+    /// The engagements so far.
     seen: Engagement,
 }
 
@@ -100,7 +100,7 @@ impl Engagements {
         Self { watched, looks: 0 }
     }
 
-    /// Takes note of a look at the plant.
+    /// Records a check of the plant.
     pub(super) fn look(&mut self, plant: &dyn AnyPlant) {
         self.looks += 1;
         let time = plant.time();
@@ -125,7 +125,7 @@ impl Engagements {
         }
     }
 
-    /// What they did, of those that were engaged at all, in the order of the scene.
+    /// The interactions that were engaged, in the order of the scene.
     pub(super) fn found(&self) -> Vec<Engagement> {
         let engaged = self.watched.iter().filter(|one| one.seen.times > 0);
         let share = |looks: u32| f64::from(looks) / f64::from(self.looks);

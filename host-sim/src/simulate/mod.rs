@@ -1,10 +1,10 @@
 //! A planned run.
 //!
 //! - [`run`]: sample by sample.
-//! - [`together`]: alike runs in lockstep, with the feature `lanes`.
-//! - [`watch`]: over its energy.
-//! - [`balance`]: where its energy came from.
-//! - [`engaged`]: what its stops, ropes and contacts did.
+//! - [`together`]: similar runs in lockstep, with the feature `lanes`.
+//! - [`watch`]: the energy watch.
+//! - [`balance`]: the energy balance.
+//! - [`engaged`]: engagements of its stops, ropes and contacts.
 
 pub mod balance;
 pub mod engaged;

@@ -1,7 +1,7 @@
 //! A planned run, sample by sample.
 //!
 //! `(scene, method, plan) => samples to an observer, ending`. The kernel steps in the method's
-//! precision; what is said of a sample is computed in double precision from its stored words.
+//! precision; the quantities of a sample are computed in double precision from its stored words.
 
 use std::io;
 use std::time::{Duration, Instant};
@@ -18,15 +18,15 @@ use thiserror::Error;
 
 use crate::simulate::engaged::{Engagement, Engagements};
 
-/// What is known at a sample.
+/// A sample.
 pub struct Sample<'s> {
     /// \[s\] the time.
     pub time: f64,
     /// The state, widened exactly.
     pub state: &'s State<SceneModel<F64>>,
-    /// How many digits its words have.
+    /// The precision of its words.
     pub numerals: Numerals,
-    /// The scene's read-outs, one number per column; NaN where a twist is undefined.
+    /// The scene's read-outs, one number per column; NaN if a torsion angle is undefined.
     pub readings: &'s [f64],
     /// \[J\] its energy.
     pub energy: Energy<f64>,
@@ -38,20 +38,20 @@ pub struct Sample<'s> {
     pub hash: u64,
 }
 
-/// Receives what a run has to say.
+/// Observes a run.
 pub trait Observer {
     /// Takes the next sample. The first is at t = 0, the last at the duration.
     ///
     /// # Errors
-    /// Where it cannot be recorded; the run then ends.
+    /// If it cannot be recorded; the run then ends.
     fn sample(&mut self, sample: &Sample<'_>) -> io::Result<()>;
 
-    /// Whether the run is to go on after the last sample.
+    /// Whether the run continues after the last sample.
     fn goes_on(&self) -> bool {
         true
     }
 
-    /// Hears of the number of steps done, now and then.
+    /// Called occasionally with the number of steps done.
     fn progress(&mut self, steps: u64) {
         let _ = steps;
     }
@@ -68,15 +68,15 @@ pub struct Ending {
     pub wall: Duration,
     /// Why it ended early.
     pub trouble: Option<Trouble>,
-    /// How far each joint opened, seen at the samples and about a thousand times over the run.
+    /// The largest opening of each joint, checked at the samples and about a thousand times per run.
     pub openings: Vec<Opening>,
-    /// The body that turned furthest in a step, seen likewise.
+    /// The body with the largest rotation in a step, checked likewise.
     pub turning: Turning,
-    /// What single precision lost of bodies' motion, seen at every step.
+    /// The motion of bodies lost in single precision, checked at every step.
     pub losses: Vec<Loss>,
-    /// The springs named as what acts on one side, and whether they acted on the other, seen likewise.
+    /// The springs named as one-sided parts, and whether they acted on the other side, checked likewise.
     pub reversals: Vec<Reversal>,
-    /// What stops, ropes and contacts did, seen likewise.
+    /// Engagements of stops, ropes and contacts, checked likewise.
     pub engagements: Vec<Engagement>,
 }
 
@@ -92,7 +92,7 @@ pub enum SimulationError {
     Observer(io::Error),
 }
 
-/// Runs the plan to its end, to the first failure or to where the observer has seen enough.
+/// Runs the plan to its end, to the first failure or until the observer stops it.
 ///
 /// # Errors
 /// Where there is no plant of the method with the plan's step, or the observer fails.
@@ -118,17 +118,17 @@ pub fn simulate(
     Ok(course.ending(evaluations, wall, trouble))
 }
 
-/// A run under way, from look to look.
+/// A run in progress, from check to check.
 pub(super) struct Course<'c> {
     scene: &'c Scene,
     plan: &'c Plan,
-    /// What is looked at.
+    /// The checked quantities.
     pub(super) plant: Box<dyn AnyPlant>,
     judge: Judge,
     rounding: Option<RoundingWatch>,
     engagements: Engagements,
     readings: Vec<f64>,
-    /// Steps between two looks at most.
+    /// Largest number of steps between two checks.
     stride: u64,
     next_sample: u64,
 }
@@ -182,11 +182,11 @@ impl<'c> Course<'c> {
         status
     }
 
-    /// Looks at the plant; the observer hears of a sample where one is due. Steps to the next look, none where
-    /// the run is at its end.
+    /// Checks the plant; the observer receives a sample if one is due. Returns the steps to the next check, `None` if
+    /// the run is complete.
     ///
     /// # Errors
-    /// Where the observer fails; inside, where the run cannot go on.
+    /// If the observer fails; inside, if the run cannot continue.
     pub(super) fn look(
         &mut self,
         observer: &mut dyn Observer,

@@ -1,8 +1,8 @@
-//! Alike runs in lockstep, one per SIMD lane, which the feature `lanes` brings.
+//! Similar runs in lockstep, one per SIMD lane, with the feature `lanes`.
 //!
-//! `(method, scenes, plan) => samples to each observer, endings`. Each run has the bits of a run by itself. What lanes
-//! cannot step, and what fails on its way, is left to [`simulate`](super::simulate); without the feature that is
-//! every run.
+//! `(method, scenes, plan) => samples to each observer, endings`. Each run is bit-identical to a single run. Runs that
+//! lanes cannot step, and runs that fail, are left to [`simulate`](super::simulate); without the feature these are
+//! all runs.
 
 #[cfg(feature = "lanes")]
 mod lockstep;
@@ -20,7 +20,7 @@ pub use one_by_one::{lanes, simulate_together};
 pub struct Member<'m> {
     /// Its scene.
     pub scene: &'m Scene,
-    /// Hears of its samples; of those of a run that is left to itself, too.
+    /// Receives its samples, also if it runs alone.
     pub observer: &'m mut dyn Observer,
 }
 
@@ -31,13 +31,13 @@ mod one_by_one {
     use super::Member;
     use crate::simulate::{Ending, SimulationError};
 
-    /// How many runs of a method go in lockstep: without the feature `lanes` each runs by itself.
+    /// Number of runs of a method in lockstep: 1 without the feature `lanes`.
     #[must_use]
     pub fn lanes(_: &Method) -> usize {
         1
     }
 
-    /// `None` for every member: each runs by itself.
+    /// `None` for every member: each runs alone.
     ///
     /// # Errors
     /// None.

@@ -1,9 +1,9 @@
 //! A watch over the energy of a run.
 //!
-//! `(limit, scene, energies of samples) => the first sample beyond`. Where nothing gives or takes energy
-//! its change from the start is watched, either way. Dampers take some: then it is the rise above
-//! the least so far, which no damper makes. Loads and inputs give and take: then it is what the
-//! energy balance leaves unexplained, either way.
+//! `(limit, scene, energies of samples) => the first sample beyond`. For a conservative scene the magnitude of the
+//! energy change from the start is watched. With dampers it is the rise above the
+//! minimum so far, which no damper causes. With loads and inputs it is the magnitude of
+//! the residual of the energy balance.
 
 use std::fmt;
 use std::str::FromStr;
@@ -16,13 +16,13 @@ use miette::Diagnostic;
 use serde::Serialize;
 use thiserror::Error;
 
-/// \[J\] A limit that was asked for: positive and finite.
+/// \[J\] A given limit: positive and finite.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct EnergyLimit(f64);
 
-/// Why a text is no limit.
+/// An invalid limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("a limit is a positive, finite number of joules, for example 1e-3")]
+#[error("give a positive, finite number of joules, for example 1e-3")]
 pub struct EnergyLimitError;
 
 impl EnergyLimit {
@@ -44,30 +44,30 @@ impl FromStr for EnergyLimit {
     }
 }
 
-/// What of the total energy is watched.
+/// The watched quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Watched {
     /// `|E − E(0)|`.
     Change,
-    /// E less the least of the samples before.
+    /// E minus the minimum of the previous samples.
     Rise,
-    /// The magnitude of what the energy balance leaves unexplained.
+    /// The magnitude of the residual of the energy balance.
     Balance,
 }
 
-/// A watch and what it saw.
+/// A watch and its result.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EnergyWatch {
-    /// \[J\] what is allowed.
+    /// \[J\] the limit.
     pub limit: f64,
-    /// What of.
+    /// The watched quantity.
     pub watched: Watched,
-    /// \[J\] the most that was seen.
+    /// \[J\] the largest value so far.
     pub largest: f64,
-    /// \[s\] when it was beyond the limit, if it was.
+    /// \[s\] when the limit was exceeded, if it was.
     pub stopped_at: Option<f64>,
-    /// \[J\] at t = 0, or the least so far.
+    /// \[J\] the energy at t = 0, or the minimum so far.
     #[serde(skip)]
     reference: Option<f64>,
 }
@@ -86,8 +86,8 @@ impl EnergyWatch {
         Self { limit: limit.joules(), watched, largest: 0.0, stopped_at: None, reference: None }
     }
 
-    /// Looks at the sample at `time` \[s\]: its total energy \[J\], and what its balance, if it has one, leaves
-    /// unexplained \[J\].
+    /// Checks the sample at `time` \[s\]: its total energy \[J\] and the residual of its balance \[J\], if it has
+    /// one.
     pub fn look(&mut self, time: f64, energy: f64, remains: Option<f64>) {
         let reference = *self.reference.get_or_insert(energy);
         let figure = match self.watched {
@@ -104,7 +104,7 @@ impl EnergyWatch {
         }
     }
 
-    /// What ended the run, where the energy was beyond the limit.
+    /// The reason for the end of the run, if the limit was exceeded.
     #[must_use]
     pub fn stop(&self) -> Option<EnergyStop> {
         let time = self.stopped_at?;
@@ -115,27 +115,27 @@ impl EnergyWatch {
 /// A run that its watch ended.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub struct EnergyStop {
-    /// \[s\] the time of the first sample beyond.
+    /// \[s\] the time of the first sample beyond the limit.
     pub time: f64,
-    /// \[J\] how large what is watched was.
+    /// \[J\] the watched quantity.
     pub figure: f64,
-    /// \[J\] what was allowed.
+    /// \[J\] the limit.
     pub limit: f64,
-    /// What was watched.
+    /// The watched quantity.
     pub watched: Watched,
 }
 
 impl EnergyStop {
-    /// What helps.
+    /// The remedy.
     #[must_use]
     pub fn advice(&self) -> &'static str {
         match self.watched {
-            Watched::Change => "a shorter step or another scheme keeps the energy closer",
+            Watched::Change => "use a shorter step or another scheme",
             Watched::Balance => {
-                "a shorter step, another scheme or explicit dampers keep the energy closer to what \
-                 loads, inputs and dampers give and take"
+                "use a shorter step, another scheme or explicit dampers, for a smaller residual of the \
+                 energy balance"
             }
-            Watched::Rise => "a shorter step or another scheme; no damper raises the energy",
+            Watched::Rise => "use a shorter step or another scheme; dampers never raise the energy",
         }
     }
 }
@@ -148,13 +148,13 @@ impl fmt::Display for EnergyStop {
             Watched::Change => {
                 write!(
                     f,
-                    "the total energy of the sample at t = {time} is {figure} J off that at t = 0"
+                    "the total energy of the sample at t = {time} differs by {figure} J from that at t = 0"
                 )?;
             }
             Watched::Rise => {
                 write!(
                     f,
-                    "the total energy of the sample at t = {time} is {figure} J above the least before"
+                    "the total energy of the sample at t = {time} is {figure} J above the previous minimum"
                 )?;
             }
             Watched::Balance => {

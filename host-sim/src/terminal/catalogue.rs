@@ -1,7 +1,7 @@
-//! The way from what a user names to a scene.
+//! Finding scenes by name, path or standard input.
 //!
-//! `name, path or - => scene, and where it comes from`. The scenes that ship are built in, so that the
-//! program needs no folder; files in `scenes/` below the current folder come before them.
+//! `name, path or - => scene and its origin`. The shipped scenes are built in, so that the
+//! program needs no folder; files in `scenes/` below the current folder take precedence.
 
 use std::fmt;
 use std::fs;
@@ -19,19 +19,19 @@ mod built_in {
 
 const FOLDER: &str = "scenes";
 
-/// The place of a scene that is built in.
+/// The location of a built-in scene.
 pub const BUILT_IN: &str = "built in";
 
-/// What a command line calls the scene that comes from standard input.
+/// The command-line name of standard input.
 const STANDARD_INPUT: &str = "-";
 
-/// The scenes that have a name: those of a folder, then those that are built in.
+/// The named scenes: those of a folder, then the built-in ones.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Catalogue {
     folder: PathBuf,
 }
 
-/// A scene, and where it comes from.
+/// A scene and its origin.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The scene.
@@ -42,7 +42,7 @@ pub struct Found {
     pub text: String,
 }
 
-/// Where a scene's text comes from.
+/// The origin of a scene's text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneFile {
     /// The name of the folder of its results: the file's without its extension, a scene's own where
@@ -56,11 +56,11 @@ pub struct SceneFile {
 
 /// There is no scene of this name.
 #[derive(Clone, Debug, PartialEq, Eq, Error, Diagnostic)]
-#[error("there is no scene named \"{}\"", shortened(name))]
+#[error("no scene named \"{}\"", shortened(name))]
 #[diagnostic(help("{}", self.help_text()))]
 pub struct UnknownScene {
     name: String,
-    /// The file that is there where `.toml` is added.
+    /// The file that exists with `.toml` added.
     file: Option<String>,
     known: Vec<String>,
 }
@@ -85,7 +85,7 @@ impl LoadError {
     }
 }
 
-// Not derived: the derive's calls would meet `SceneError::help`, which is a method of its own.
+// Not derived, because the derived calls would resolve to `SceneError::help`, an inherent method.
 impl Diagnostic for LoadError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         self.inner().help()
@@ -106,7 +106,9 @@ impl UnknownScene {
         let meant = self.file.as_deref().or(nearest);
         let meant = meant.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
         let known = self.known.join(", ");
-        format!("{meant}the scenes: {known}; or a path to a .toml file, or - for standard input")
+        format!(
+            "{meant}known scenes: {known}; or give a path to a .toml file, or - for standard input"
+        )
     }
 }
 
@@ -145,8 +147,8 @@ impl Catalogue {
         names
     }
 
-    /// The file that a user names: by a path, or by a name of the folder. `None` of what is built in, of standard input
-    /// and of nothing.
+    /// The file that a user names: by a path, or by a name in the folder. `None` for built-in scenes, standard input
+    /// and unknown names.
     #[must_use]
     pub fn file(&self, called: &str) -> Option<PathBuf> {
         if called == STANDARD_INPUT {
@@ -169,15 +171,15 @@ impl Catalogue {
         entries.filter_map(|entry| scene_name(entry.ok()?.path())).collect()
     }
 
-    /// The scene that ships under a name.
+    /// The built-in scene of a name.
     #[must_use]
     pub fn shipped(name: &str) -> Option<Scene> {
-        // They are named as their files are.
+        // They have the names of their files.
         let (_, text) = built_in::SCENES.iter().find(|(known, _)| *known == name)?;
         Scene::parse(text, name).ok()
     }
 
-    /// Loads what a user names: a scene of the catalogue, a path to a `.toml` file, or `-` for
+    /// Loads a scene of the catalogue, a path to a `.toml` file, or `-` for
     /// standard input.
     ///
     /// # Errors
@@ -186,10 +188,10 @@ impl Catalogue {
         self.load_with(called, &[])
     }
 
-    /// Loads what a user names, with values changed: `PATH=VALUE`.
+    /// Loads a scene by name, with values changed: `PATH=VALUE`.
     ///
     /// # Errors
-    /// As [`Self::load`]; where a change leads nowhere.
+    /// As [`Self::load`], or if a changed path does not exist.
     pub fn load_with(&self, called: &str, changes: &[String]) -> Result<Found, LoadError> {
         if called == STANDARD_INPUT {
             return from_standard_input(changes);
@@ -235,7 +237,7 @@ fn from_standard_input(changes: &[String]) -> Result<Found, LoadError> {
     Ok(Found { scene, file, text })
 }
 
-/// Whether what a user names is a path rather than a name.
+/// Whether the argument is a path rather than a name.
 #[must_use]
 pub fn is_path(scene: &str) -> bool {
     scene.ends_with(".toml") || scene.contains(['/', '\\'])

@@ -1,7 +1,7 @@
-//! Where a command's text goes, and how errors look there.
+//! The output streams of a command, and the format of errors.
 //!
-//! A reader that has gone, as `head` does, is no failure: what it has not read is dropped. Results that
-//! cannot be written for another reason, as on a full disk, are one. Errors have nowhere else to go.
+//! A closed reader, e.g. `head`, is not an error: the rest of the output is dropped. Results that
+//! cannot be written for another reason, e.g. a full disk, are an error. Failures to write errors are ignored.
 
 use std::io::{self, Write};
 
@@ -13,33 +13,33 @@ use thiserror::Error;
 
 use crate::terminal::look::{DOUBTFUL, GOOD_TO_KNOW, Look};
 
-/// Standard output and standard error, or what stands for them.
+/// Standard output and standard error, or substitutes.
 pub struct Console<'c> {
     /// Results.
     pub out: &'c mut dyn Write,
     /// Errors.
     pub err: &'c mut dyn Write,
-    /// How results look.
+    /// The style of results.
     pub look: Look,
-    /// How errors look.
+    /// The style of errors.
     pub err_look: Look,
     /// Whether errors go to a terminal, and progress is shown by a bar.
     pub terminal: bool,
 }
 
-/// Standard output does not take what is written to it.
+/// Standard output cannot be written.
 #[derive(Debug, Error, Diagnostic)]
 #[error("cannot write to standard output: {0}")]
 pub struct OutputError(io::Error);
 
 impl<'c> Console<'c> {
-    /// Results and errors as files have them.
+    /// Results and errors without colours.
     #[must_use]
     pub fn plain(out: &'c mut dyn Write, err: &'c mut dyn Write) -> Self {
         Self { out, err, look: Look::PLAIN, err_look: Look::PLAIN, terminal: false }
     }
 
-    /// Takes what a user says about colours.
+    /// Applies the user's choice of colours.
     pub fn choose(&mut self, choice: ColorChoice) {
         let colours = match choice {
             ColorChoice::Auto => return,
@@ -53,12 +53,12 @@ impl<'c> Console<'c> {
     /// Writes results.
     ///
     /// # Errors
-    /// Where they cannot be written though there is a reader.
+    /// If they cannot be written although there is a reader.
     pub fn print(&mut self, text: &str) -> Result<(), OutputError> {
         self.print_to_reader(text).map(|_| ())
     }
 
-    /// Writes results, and says whether there still is a reader.
+    /// Writes results; returns whether there still is a reader.
     ///
     /// # Errors
     /// As [`Self::print`].
@@ -76,7 +76,7 @@ impl<'c> Console<'c> {
         let _ = writeln!(self.err, "{} {warning}", self.err_look.paint(DOUBTFUL, "warning:"));
     }
 
-    /// Writes what must not go unseen, though nothing is wrong.
+    /// Writes a note.
     pub fn note(&mut self, note: &str) {
         let _ = writeln!(self.err, "{} {note}", self.err_look.paint(GOOD_TO_KNOW, "note:"));
     }
@@ -88,8 +88,8 @@ impl<'c> Console<'c> {
     }
 }
 
-/// An error as people read it: what is wrong; file, line, column and the line itself with a mark;
-/// what would be right.
+/// An error for people: the problem; file, line, column and the marked line;
+/// the remedy.
 fn rendered(error: &dyn Diagnostic, look: Look) -> String {
     let message = error.to_string();
     let mut group = Group::with_title(Level::ERROR.primary_title(&message));
@@ -113,7 +113,7 @@ fn rendered(error: &dyn Diagnostic, look: Look) -> String {
     renderer.decor_style(DecorStyle::Unicode).render(&[group])
 }
 
-/// Where an error lies.
+/// The location of an error.
 struct Source {
     file: String,
     text: String,
@@ -148,7 +148,7 @@ mod tests {
 
     use super::*;
 
-    /// A writer that fails in one way.
+    /// A writer that fails with a given error.
     struct Failing(io::ErrorKind);
 
     impl Write for Failing {
@@ -183,7 +183,7 @@ mod tests {
         assert!(rendered(&error, coloured).contains("\u{1b}["));
     }
 
-    /// What is wrong may lie at the very end, in an empty file or behind letters of many bytes.
+    /// An error may be at the very end, in an empty file or after multi-byte characters.
     #[test]
     fn any_place_can_be_shown() {
         let whole = "name = \"ö\"\nduration = 1\n# äöü€😀\n[[body]]\nname = \"bé\"\nmass = \"ß";

@@ -1,9 +1,9 @@
-//! What happens where a program is told to end: Ctrl-C (SIGINT), SIGTERM, a closed terminal (SIGHUP), SIGQUIT.
+//! Handling of termination: Ctrl-C (SIGINT), SIGTERM, a closed terminal (SIGHUP), SIGQUIT.
 //!
-//! `signal => files that are not complete are removed => the signal's own end`. The process then dies
-//! of the signal, as if nobody had waited for it: shells see 130 or 143, for example, and scripts stop, too.
+//! `signal => incomplete files are removed => default action of the signal`. The process then ends
+//! by the signal as without a handler: shells report 130 or 143, for example, and scripts stop.
 
-/// From now on a signal that ends the program removes first what is not complete.
+/// Installs a handler that removes incomplete files before a signal ends the program.
 #[cfg(unix)]
 pub fn clean_up_on_signals() {
     use dbd_report::output::file::give_up_all;
@@ -11,7 +11,7 @@ pub fn clean_up_on_signals() {
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
-    // Without it the program works all the same.
+    // The program also works without it.
     let mut handled = vec![SIGINT, SIGQUIT, SIGTERM];
     // A handler would end a run under nohup, which ignores SIGHUP, with its terminal.
     if ignored_signals().is_some_and(|ignored| ignored & (1 << (SIGHUP - 1)) == 0) {
@@ -21,7 +21,7 @@ pub fn clean_up_on_signals() {
     std::thread::spawn(move || {
         if let Some(signal) = signals.forever().next() {
             let _held = give_up_all();
-            // Where the signal does not end the process, its code does.
+            // If the signal does not end the process, its exit code does.
             let _ = emulate_default_handler(signal);
             std::process::exit(128 + signal);
         }
@@ -36,6 +36,6 @@ fn ignored_signals() -> Option<u64> {
     u64::from_str_radix(mask.trim(), 16).ok()
 }
 
-/// Elsewhere the system ends a program without asking.
+/// Elsewhere the system ends a program without a handler.
 #[cfg(not(unix))]
 pub fn clean_up_on_signals() {}

@@ -1,8 +1,8 @@
-//! How text looks where it goes: with colours or without, and how wide.
+//! Colours and width of text output.
 //!
-//! `(stream, environment) => colours, width`. `NO_COLOR`, `CLICOLOR`, `CLICOLOR_FORCE` and `TERM=dumb` count as
-//! everywhere (<https://no-color.org>, <https://bixense.com/clicolors>); where there is no terminal, nothing is
-//! coloured unasked and no line is broken.
+//! `(stream, environment) => colours, width`. `NO_COLOR`, `CLICOLOR`, `CLICOLOR_FORCE` and `TERM=dumb` have their usual
+//! meaning (<https://no-color.org>, <https://bixense.com/clicolors>); without a terminal there are by default no
+//! colours and no line breaks.
 
 use std::fmt::Display;
 
@@ -10,31 +10,31 @@ use anstream::stream::RawStream;
 use anstream::{AutoStream, ColorChoice};
 use anstyle::{AnsiColor, Style};
 
-/// How text looks where it goes.
+/// Colours and width of a text output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Look {
     /// Whether it is coloured.
     pub colours: bool,
-    /// Columns of the terminal; `None` where there is none, and lines are as long as they are.
+    /// Columns of the terminal; `None` without a terminal, when lines are not broken.
     pub width: Option<usize>,
 }
 
 /// Heads of tables, names.
 pub const HEAD: Style = Style::new().bold();
-/// What is as it should be.
+/// Success.
 pub const GOOD: Style = AnsiColor::Green.on_default();
-/// What is not.
+/// Failure.
 pub const BAD: Style = AnsiColor::Red.on_default().bold();
-/// What is probably not meant.
+/// Warnings.
 pub const DOUBTFUL: Style = AnsiColor::Yellow.on_default().bold();
-/// What is good to know.
+/// Notes.
 pub const GOOD_TO_KNOW: Style = AnsiColor::Cyan.on_default();
 
 impl Look {
-    /// Neither colours nor a width, as a file has it.
+    /// Neither colours nor a width, for files.
     pub const PLAIN: Self = Self { colours: false, width: None };
 
-    /// What suits a stream of this process.
+    /// The style for a stream of this process.
     #[must_use]
     pub fn of(stream: &impl RawStream) -> Self {
         let columns = || terminal_size::terminal_size().map(|(width, _)| usize::from(width.0));
@@ -44,7 +44,7 @@ impl Look {
         }
     }
 
-    /// A text in a style, where there are colours.
+    /// A text in a style, if colours are on.
     #[must_use]
     pub fn paint(self, style: Style, text: impl Display) -> String {
         if self.colours { format!("{style}{text}{style:#}") } else { text.to_string() }

@@ -1,11 +1,11 @@
-//! What a user meets around the commands.
+//! The user interface around the commands.
 //!
 //! - [`exit`]: the code a command ends with.
-//! - [`look`]: whether what goes somewhere is coloured, and how wide.
+//! - [`look`]: colours and width of text output.
 //! - [`text`]: JSON, rows and columns.
-//! - [`console`], [`progress`]: where text goes, how errors look, what shows that a run goes on.
-//! - [`interrupt`]: nothing half-written is left where a program is told to end.
-//! - [`catalogue`]: the way from what a user names to a scene.
+//! - [`console`], [`progress`]: output streams, format of errors, progress.
+//! - [`interrupt`]: removal of incomplete files on termination.
+//! - [`catalogue`]: finding scenes by name or path.
 
 pub mod catalogue;
 pub mod console;

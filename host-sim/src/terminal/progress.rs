@@ -1,4 +1,4 @@
-//! What a run that takes its time says meanwhile: a bar on a terminal, lines elsewhere.
+//! Progress of long runs: a bar on a terminal, lines elsewhere.
 
 use std::fmt;
 use std::io::Write;
@@ -8,10 +8,10 @@ use dbd_plant::digits::significant;
 use indicatif::style::TemplateError;
 use indicatif::{HumanCount, ProgressBar, ProgressState, ProgressStyle};
 
-/// Runs that are shorter show nothing.
+/// Shorter runs show no progress.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Where no bar can be shown, a line says how far counted work has come as often as this.
+/// Interval of progress lines without a terminal.
 const SILENCE: Duration = Duration::from_secs(20);
 
 /// A bar on standard error that appears once a run takes longer than half a second; or, where standard
@@ -23,14 +23,14 @@ pub struct Progress<'p> {
     bar: Option<ProgressBar>,
     waiting: Option<ProgressBar>,
     lines: Option<Lines<'p>>,
-    /// Whether counted work is all there is, so that its pace is known from the beginning.
+    /// Whether all work is counted, so that its rate is known from the beginning.
     counts_alone: bool,
 }
 
-/// Lines in place of a bar.
+/// Lines instead of a bar.
 struct Lines<'p> {
     to: &'p mut dyn Write,
-    /// When counted work was last spoken of; `None` before its first line.
+    /// Time of the last line about counted work; `None` before the first.
     last: Option<Instant>,
 }
 
@@ -51,7 +51,7 @@ impl<'p> Progress<'p> {
         Self { unit, lines, counts_alone: false, ..Self::new(terminal) }
     }
 
-    /// Counted work alone, with its pace; without a terminal nothing is said of what is done soon.
+    /// Counted work only, with its rate; without a terminal, short work prints no line.
     #[must_use]
     pub fn of_many(terminal: bool, unit: &'static str, lines: &'p mut dyn Write) -> Self {
         let last = Some(Instant::now());
@@ -59,7 +59,7 @@ impl<'p> Progress<'p> {
         Self { unit, lines, ..Self::new(terminal) }
     }
 
-    /// Other counted work begins, in its unit: it is not shown before it takes its time, either.
+    /// Other counted work begins, in its unit; it is also shown only if it takes long.
     pub fn restart(&mut self, unit: &'static str) {
         self.finish();
         (self.unit, self.start) = (unit, Instant::now());
@@ -68,7 +68,7 @@ impl<'p> Progress<'p> {
         }
     }
 
-    /// Something begins of which nobody knows how long it takes: its name and the time so far.
+    /// Work of unknown length begins: shows its name and the time so far.
     pub fn begin(&mut self, what: &'static str) {
         self.finish();
         if self.shown {
@@ -80,7 +80,7 @@ impl<'p> Progress<'p> {
         self.say(what);
     }
 
-    /// A line, after the time so far. Whoever has stopped reading misses it.
+    /// Prints a line after the time so far. A closed reader is ignored.
     fn say(&mut self, what: &str) {
         let seconds = self.start.elapsed().as_secs_f64();
         if let Some(lines) = &mut self.lines {
@@ -88,7 +88,7 @@ impl<'p> Progress<'p> {
         }
     }
 
-    /// How fast counted work that began with all of this goes, and how long it takes yet.
+    /// The rate of counted work, and its remaining time.
     fn pace(&self, done: u64, all: u64) -> Option<String> {
         let rate = done as f64 / self.start.elapsed().as_secs_f64();
         let left = all.saturating_sub(done) as f64 / rate;
@@ -96,7 +96,7 @@ impl<'p> Progress<'p> {
         known.then(|| format!(", {} a second, {left:.0} s left", significant(rate, 3)))
     }
 
-    /// So many steps of all are done.
+    /// Sets the number of finished steps.
     pub fn update(&mut self, steps: u64, all: u64) {
         if let Some(lines) = &mut self.lines {
             if lines.last.is_none_or(|last| last.elapsed() >= SILENCE) {
@@ -131,7 +131,7 @@ impl<'p> Progress<'p> {
     }
 }
 
-/// How a bar looks: it takes what the figures leave, which come first on a narrow terminal.
+/// The style of a bar: it uses the width left by the figures, which take precedence on a narrow terminal.
 fn style(unit: &'static str, has_pace: bool) -> Result<ProgressStyle, TemplateError> {
     let pace = if has_pace { "{pace}  " } else { "" };
     let template =
@@ -150,12 +150,12 @@ mod tests {
     fn without_a_terminal_each_part_is_a_line() {
         let mut said = Vec::new();
         let mut progress = Progress::of(false, "evaluations", &mut said);
-        progress.begin("the truth");
+        progress.begin("reference solution");
         (0..1000).for_each(|done| progress.update(done, 1000));
         progress.begin("measuring times");
         progress.finish();
         let said = String::from_utf8(said).unwrap();
         let lines: Vec<&str> = said.lines().filter_map(|line| line.split(" s  ").nth(1)).collect();
-        assert_eq!(lines, ["the truth", "0 % of 1000 evaluations", "measuring times"]);
+        assert_eq!(lines, ["reference solution", "0 % of 1000 evaluations", "measuring times"]);
     }
 }

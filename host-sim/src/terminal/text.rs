@@ -60,7 +60,7 @@ impl Look {
         lines
     }
 
-    /// A sentence that stands by itself, its further lines indented.
+    /// A separate sentence, its further lines indented.
     #[must_use]
     pub fn sentence(self, text: &str) -> String {
         let pieces = self.broken(text, FURTHER);

@@ -199,7 +199,7 @@ fn a_read_only_folder_is_refused_before_the_run() {
     assert_eq!(text(&done.stdout).split_whitespace().collect::<Vec<_>>(), ["2", "2"]);
     let said = text(&done.stderr);
     assert!(said.contains("cannot write to out/ball: Read-only file system"), "{said}");
-    assert!(said.contains("name another folder with --out DIR"), "{said}");
+    assert!(said.contains("choose another folder with --out DIR"), "{said}");
 }
 
 #[test]

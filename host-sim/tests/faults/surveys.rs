@@ -90,7 +90,7 @@ fn two_surveys_in_one_folder_do_not_mix() {
     let busy = codes[..2].iter().position(|code| *code == Some(1));
     assert!(codes[..2].contains(&Some(0)), "{codes:?}");
     if let Some(busy) = busy {
-        assert!(text(&all[busy].stderr).contains("another survey of this scene"));
+        assert!(text(&all[busy].stderr).contains("another trade-off study of this scene"));
     }
     let found = accuracies(here.path());
     done(&call(here.path(), &SURVEY));

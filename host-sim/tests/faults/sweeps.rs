@@ -87,7 +87,7 @@ fn a_damaged_file_of_finished_cases_is_named_and_set_aside() {
     fs::write(&file, &bytes).unwrap();
     let output = call(here.path(), &SWEEP);
     let said = text(&output.stderr);
-    for part in ["1-of-1.rows is damaged in 2 lines", "set aside as", "1-of-1.rows.damaged"] {
+    for part in ["1-of-1.rows is damaged in 2 lines", "renamed to", "1-of-1.rows.damaged"] {
         assert!(said.contains(part), "{said}");
     }
     assert_eq!(ran(&output), 3);

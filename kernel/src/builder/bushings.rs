@@ -8,7 +8,7 @@ use crate::index::{BodyIndex, ClearanceIndex};
 use crate::model::{Group, Law};
 use crate::space::Space as _;
 
-/// What bushings have in common.
+/// Properties common to all bushing joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct BushingLaw {
@@ -51,12 +51,11 @@ impl<
         UNIVERSALS,
     >
 {
-    /// Adds a revolute joint of bushings: a point \[m\] and an axis of either body in its own axes, the
-    /// `lever` \[m\] at which the stiffness holds the axes in line, `ratio` ≥ 0 of the stiffness along the
-    /// axis to that across it.
+    /// Adds a revolute joint of bushings: a point \[m\] and an axis of each body in its own axes, the `lever` arm \[m\]
+    /// at which the stiffness aligns the axes, and `ratio` ≥ 0, the axial stiffness over the radial stiffness.
     ///
     /// # Errors
-    /// [`BuildError::Full`] for a capacity, a body that is not there, a quantity out of range.
+    /// [`BuildError::Full`] for a capacity, an unknown body, a quantity out of range.
     pub fn add_revolute(
         &mut self,
         between: [BodyIndex; 2],
@@ -71,16 +70,16 @@ impl<
         let element = self.revolutes.len();
         self.add_bushing_group(Law::Revolute, between, points, element, law)?;
         let along = (ratio - 1.0) / (lever * lever);
-        // Room was made sure of above.
+        // The capacity was checked above.
         let _ = self.revolutes.push(Revolute::from_f64(law.stiffness, along, levers));
         Ok(())
     }
 
-    /// Adds a universal joint without a spider: a point \[m\] and an axis of either body in its own
-    /// axes, and the `lever` \[m\] at which the stiffness holds the axes perpendicular.
+    /// Adds a universal joint without a spider: a point \[m\] and an axis of each body in its own axes, and the `lever`
+    /// arm \[m\] at which the stiffness keeps the axes perpendicular.
     ///
     /// # Errors
-    /// [`BuildError::Full`] for a capacity, a body that is not there, a quantity out of range.
+    /// [`BuildError::Full`] for a capacity, an unknown body, a quantity out of range.
     pub fn add_universal(
         &mut self,
         between: [BodyIndex; 2],
@@ -97,7 +96,7 @@ impl<
         Ok(())
     }
 
-    /// Adds the group of a point of either body.
+    /// Adds the group of one point on each body.
     fn add_bushing_group(
         &mut self,
         law: Law,

@@ -1,14 +1,14 @@
-//! Why an element could not be added, and what was meant.
+//! Errors of the builder: why an element could not be added.
 
 use crate::index::BodyIndex;
 
-/// Why an element could not be added; the builder is then as it was.
+/// Why an element could not be added; the builder is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum BuildError {
     /// The capacity for this part is used up.
     Full(Part),
-    /// A body that was not added.
+    /// No such body.
     UnknownBody(BodyIndex),
     /// An element between a body and itself.
     SameBody(BodyIndex),
@@ -16,7 +16,7 @@ pub enum BuildError {
     OutOfRange(Quantity),
 }
 
-/// What a builder has room for.
+/// The lists of limited capacity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Part {
@@ -48,13 +48,13 @@ pub enum Part {
     Universals,
 }
 
-/// What can be out of range.
+/// The quantities that can be out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Quantity {
     /// Mass: positive.
     Mass,
-    /// Principal inertia: positive, none above the sum of the other two.
+    /// Principal inertia: positive, each at most the sum of the other two.
     Inertia,
     /// A position, orientation or velocity: finite.
     State,
@@ -68,7 +68,7 @@ pub enum Quantity {
     Damping,
     /// Free length: finite, not negative.
     FreeLength,
-    /// Clearance: finite, not negative; none on a point bushing.
+    /// Clearance: finite, not negative; not supported by point bushings.
     Clearance,
     /// An axis: finite and not 0.
     Axis,
@@ -76,17 +76,17 @@ pub enum Quantity {
     Load,
     /// A window of time that ends before it begins, or NaN.
     Window,
-    /// A joint's points: one or more centres, each with one arm or three, shared or its own.
+    /// A joint's points: one or more centres, each with one leg or three, shared or separate.
     Arms,
 }
 
 impl core::fmt::Display for BuildError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            BuildError::Full(part) => write!(f, "no room for more {part:?}"),
-            BuildError::UnknownBody(body) => write!(f, "body {} was not added", body.0),
-            BuildError::SameBody(body) => write!(f, "body {} joined to itself", body.0),
-            BuildError::OutOfRange(quantity) => write!(f, "{quantity:?} out of range"),
+            BuildError::Full(part) => write!(f, "capacity exceeded: {part:?}"),
+            BuildError::UnknownBody(body) => write!(f, "unknown body {}", body.0),
+            BuildError::SameBody(body) => write!(f, "an element joins body {} to itself", body.0),
+            BuildError::OutOfRange(quantity) => write!(f, "{quantity:?} is out of range"),
         }
     }
 }

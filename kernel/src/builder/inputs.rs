@@ -40,10 +40,10 @@ impl<
         UNIVERSALS,
     >
 {
-    /// Adds an input that the caller drives, at first with `value`.
+    /// Adds an input that the caller drives, with the initial `value`.
     ///
     /// # Errors
-    /// [`BuildError::Full`], a body that is not there, a point, direction or value that is not finite.
+    /// [`BuildError::Full`], an unknown body, a point, direction or value that is not finite.
     pub fn add_input(&mut self, kind: InputKind<P>, value: f64) -> Result<InputIndex, BuildError> {
         match &kind {
             InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
@@ -80,12 +80,12 @@ impl<
         Ok(index)
     }
 
-    /// Adds an input that follows a table of (time \[s\], value) with ascending times, held from
-    /// each knot on, or linear in between.
+    /// Adds an input that follows a table of (time \[s\], value) with ascending times, held after each knot or linear
+    /// in between.
     ///
     /// # Errors
-    /// As [`Self::add_input`]; [`Quantity::Window`] where times do not ascend, [`Quantity::Load`]
-    /// where the precision cannot hold a value or what lies between two.
+    /// As [`Self::add_input`]; [`Quantity::Window`] where times do not ascend, [`Quantity::Load`] where a value or an
+    /// interpolated value is not representable in the precision.
     pub fn add_table(
         &mut self,
         kind: InputKind<P>,

@@ -1,8 +1,8 @@
 //! Models assembled at run time in fixed capacity (feature `heapless`).
 //!
-//! `bodies, elements => model`, in double precision on the way in, each constant rounded once.
-//! The builder is the model: lend it to a [`crate::Plant`] when it is complete. It steps through
-//! the same code and bits as a const model with the same elements in the same order.
+//! `bodies, elements => model`: arguments are in double precision, each constant is rounded once. The builder is the
+//! model: pass it to a [`crate::Plant`] when it is complete. It is stepped by the same code and with the same bits as a
+//! const model with the same elements in the same order.
 
 mod bushings;
 mod error;
@@ -31,16 +31,16 @@ use crate::real::Real;
 use crate::space::{Linear as _, Space, Turn as _};
 use crate::vector::Quaternion;
 
-/// Stars of TSDAs between two bodies: what a joint expands into.
+/// Spring triples of TSDAs between two bodies, into which a joint is expanded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Stars<'p> {
     /// First and second body.
     pub between: [BodyIndex; 2],
-    /// \[m\] one point of the first body per star, its body axes (world for the ground).
+    /// \[m\] one point of the first body per triple, body axes (world for the ground).
     pub centres: &'p [[f64; 3]],
-    /// \[m\] points of the second body: 1 or 3 shared by all stars, or 1 to 3 for each star; of point
-    /// bushings one for each star.
+    /// \[m\] points of the second body: 1 or 3 shared by all triples, or 1 to 3 per triple; for point bushings one per
+    /// triple.
     pub arms: &'p [[f64; 3]],
     /// \[N/m\] stiffness of each TSDA, ≥ 0.
     pub stiffness: f64,
@@ -48,11 +48,11 @@ pub struct Stars<'p> {
     pub damping: f64,
     /// \[m\] free length of each TSDA, ≥ 0; 0 makes point bushings.
     pub free_length: f64,
-    /// \[m\] clearance of each TSDA, ≥ 0; 0 for none. A point bushing has none.
+    /// \[m\] clearance of each TSDA, ≥ 0; 0 for none. Point bushings support no clearance.
     pub clearance: f64,
 }
 
-/// How a point is held to a line.
+/// Constants of a point on a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct LineLaw {
@@ -159,14 +159,14 @@ impl<
         }
     }
 
-    /// Sets the field of gravity \[m/s²\], world.
+    /// Sets gravity \[m/s²\], world.
     ///
     /// # Errors
     /// [`Quantity::Gravity`] where it is not finite.
     pub fn set_gravity(&mut self, gravity: [f64; 3]) -> Result<(), BuildError> {
         check(finite(&gravity) && P::Vector::holds(gravity), Quantity::Gravity)?;
         self.gravity.clear();
-        // A capacity of 1 holds one field.
+        // The capacity is 1.
         let _ = self.gravity.push(P::Vector::from_f64(gravity));
         Ok(())
     }
@@ -199,8 +199,8 @@ impl<
         Ok(index)
     }
 
-    /// Adds one raw TSDA; points \[m\] in body axes, world for the ground. A free length of 0
-    /// makes it a point bushing.
+    /// Adds one raw TSDA; points \[m\] in body axes, world for the ground. With a free length of 0 it is a point
+    /// bushing.
     ///
     /// # Errors
     /// As [`Self::add_stars`].
@@ -225,10 +225,10 @@ impl<
         })
     }
 
-    /// Adds the stars of one joint as one group.
+    /// Adds the spring triples of one joint as one group.
     ///
     /// # Errors
-    /// [`BuildError::Full`] for a capacity, a body that is not there, a quantity out of range.
+    /// [`BuildError::Full`] for a capacity, an unknown body, a quantity out of range.
     pub fn add_stars(&mut self, stars: Stars<'_>) -> Result<(), BuildError> {
         self.check_pair(stars.between)?;
         let not_negative = |x: f64| x >= 0.0 && x.is_finite();
@@ -272,7 +272,7 @@ impl<
             damper,
             clearance,
         };
-        // Room was made sure of above.
+        // The capacity was checked above.
         let _ = self.groups.push(group);
         for point in points {
             let _ = self.points.push(P::local_from_f64(*point));
@@ -287,12 +287,11 @@ impl<
         Ok(())
     }
 
-    /// Adds points of the second body held to a line of the first as one group: the line through
-    /// `line_point` \[m\] along `direction` in the first body's axes, one point \[m\] or two in
-    /// the second's.
+    /// Adds a group of one or two points \[m\] of the second body on a line of the first: the line through `line_point`
+    /// \[m\] along `direction`, in the first body's axes.
     ///
     /// # Errors
-    /// [`BuildError::Full`] for a capacity, a body that is not there, a quantity out of range.
+    /// [`BuildError::Full`] for a capacity, an unknown body, a quantity out of range.
     pub fn add_points_on_line(
         &mut self,
         between: [BodyIndex; 2],
@@ -340,11 +339,11 @@ impl<
         Ok(())
     }
 
-    /// Adds a torsion spring about `axis` (first body's axes), at twist 0 in the initial pose;
-    /// stiffness \[N·m/rad\], damping \[N·m·s/rad\], preload \[N·m\] on the second body.
+    /// Adds a torsion spring about `axis` (first body's axes), with torsion angle 0 in the initial pose; stiffness
+    /// \[N·m/rad\], damping \[N·m·s/rad\], preload \[N·m\] on the second body.
     ///
     /// # Errors
-    /// [`BuildError::Full`], a body that is not there, a quantity out of range.
+    /// [`BuildError::Full`], an unknown body, a quantity out of range.
     pub fn add_torsion_spring(
         &mut self,
         between: [BodyIndex; 2],
@@ -383,7 +382,7 @@ impl<
     /// Adds a load.
     ///
     /// # Errors
-    /// [`BuildError::Full`], a body that is not there, a force, torque or window out of range.
+    /// [`BuildError::Full`], an unknown body, a force, torque or window out of range.
     pub fn add_load(&mut self, load: Load<P::Space>) -> Result<(), BuildError> {
         if load.body.row() >= self.bodies.len() {
             return Err(BuildError::UnknownBody(load.body));
@@ -416,7 +415,8 @@ impl<
         Ok(index)
     }
 
-    /// The coefficient of each element, and zeros up to so many rows; none where it is 0.
+    /// Adds the coefficient of each element, padded with zeros to the given number of rows; nothing for a coefficient
+    /// of 0.
     fn add_dampers(
         &mut self,
         damping: f64,
@@ -448,7 +448,7 @@ fn check(holds: bool, quantity: Quantity) -> Result<(), BuildError> {
     if holds { Ok(()) } else { Err(BuildError::OutOfRange(quantity)) }
 }
 
-/// Whether `more` items fit; the largest index stands for "none" and is never given away.
+/// Whether `more` items fit; the largest index represents "none" and is never assigned.
 fn room<T, const N: usize>(items: &Vec<T, N>, more: usize, part: Part) -> Result<(), BuildError> {
     let fits = items.len() + more <= N.min(usize::from(u16::MAX));
     if fits { Ok(()) } else { Err(BuildError::Full(part)) }

@@ -1,4 +1,4 @@
-//! The builder as an owner of its model: memory of fixed capacity, filled as far as needed.
+//! The builder as owner of its model, stored in vectors of fixed capacity.
 
 use heapless::Vec;
 

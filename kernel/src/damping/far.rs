@@ -1,6 +1,6 @@
-//! A damper along a sum of directions, each of two bodies.
+//! A damper along a sum of directions, each between two bodies.
 //!
-//! `(directions, rates, kick's rates, coefficient, time) => impulse on all bodies`, as [`super::pair`] for two.
+//! `(directions, rates, kick's rates, coefficient, time) => impulse on all bodies`; see [`super::pair`] for two bodies.
 
 use crate::damping::kick::Kick;
 use crate::damping::moving::Moving;
@@ -13,7 +13,7 @@ use crate::real::Real as _;
 use crate::record::Direction;
 use crate::space::{Linear as _, Moment as _};
 
-/// A body, and what a unit impulse along the sum is for it.
+/// A body and its response to a unit impulse along the sum.
 #[derive(Clone, Copy)]
 pub(crate) struct Held<P: Geometry> {
     pub(crate) row: usize,
@@ -23,7 +23,7 @@ pub(crate) struct Held<P: Geometry> {
     pub(crate) moment: P::Moment,
 }
 
-/// The bodies that a sum of directions moves, each once, in the order in which they come.
+/// The bodies moved by a sum of directions, each once, in order of first occurrence.
 pub(crate) struct Far<P: Geometry>([Option<Held<P>>; 2 * (1 + MOST_BRANCHES)]);
 
 impl<P: Geometry> Default for Far<P> {
@@ -34,7 +34,7 @@ impl<P: Geometry> Default for Far<P> {
 }
 
 impl<P: Geometry> Far<P> {
-    /// Adds a direction between two bodies, B before A; the ground takes nothing.
+    /// Adds a direction between two bodies, B before A; the ground is skipped.
     #[inline(always)]
     pub(crate) fn add(&mut self, bodies: [BodyIndex; 2], direction: &Direction<P::Space>) {
         let Direction { along, moments: [of_a, of_b] } = *direction;

@@ -1,10 +1,10 @@
-//! Dampers joint by joint: the impulses of a joint's levers.
+//! Joint-wise dampers: the impulses of a joint's damping modes.
 //!
-//! `(pose, wrenches, velocities, levers) => velocities`. As the sweeps of [`crate::damping`], with a
-//! joint's levers in place of its dampers; the damper of a raw spring and of a torsion spring is one
-//! lever that turns. What a pose makes of a lever, and what the lever is told of the kick, serves the
-//! sweep before a step's end and the one at the start of the next. Universal joints of bushings and what has a
-//! clearance are swept damper by damper.
+//! `(pose, wrenches, velocities, levers) => velocities`. Like the damper passes of [`crate::damping`], with a joint's
+//! damping modes (levers) in place of its dampers; the damper of a raw spring and of a torsion spring is a single mode
+//! that rotates with the pose. The pose-dependent quantities of a mode and its part of the kick are used twice: in the
+//! pass before a step's end and in the one at the start of the next. Universal joints of bushings and elements with a
+//! clearance are processed damper by damper.
 
 use core::sync::atomic::{Ordering, compiler_fence};
 
@@ -20,8 +20,8 @@ use crate::model::{Group, ModelRef, Terms};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Space as _};
 
-/// One pass over all levers and dampers in the order of their `stops`, ascending, or descending with
-/// `REVERSE`; the levers are ready.
+/// One pass over all damping modes and dampers in the order of their `stops`, ascending, or descending with `REVERSE`;
+/// the modes are prepared.
 pub(crate) fn sweep_joints<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
@@ -49,7 +49,7 @@ pub(crate) fn sweep_joints<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: 
     moving.end();
 }
 
-/// What acts at one stop.
+/// Applies the entry of one stop.
 #[inline(always)]
 fn act<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
@@ -102,7 +102,7 @@ fn act<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     }
 }
 
-/// A group's dampers one by one. Apart: beside it there would not be enough registers for levers.
+/// A group's dampers one by one. Not inlined: inlined here it would leave too few registers for the modes.
 #[inline(never)]
 fn dampers<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
@@ -113,8 +113,8 @@ fn dampers<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     sweep_group::<P, T, K, REVERSE>(model, sweep, group, moving);
 }
 
-/// The levers of a joint to the ground, all at once: they do not act on one another. In descending order
-/// they are told of the kick, and keep what it gave for the sweep that follows.
+/// The modes of a joint to the ground, all at once: they are mutually independent. In descending order they include the
+/// kick and store its rate for the next pass.
 #[inline(always)]
 fn ground<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
@@ -136,7 +136,7 @@ fn ground<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     let velocity = P::to_body(frame, velocity);
     let mut push = P::Vector::ZERO;
     let mut turn = P::Moment::ZERO;
-    // Written out: in a loop its own instructions would be a fifth.
+    // Unrolled: the loop's own instructions would be a fifth of the total.
     macro_rules! act {
         ($from:expr, $to:expr; $($n:literal)*) => {$(
             if $n >= $from && $n < $to && let Some(lever) = levers.get_mut($n) {
@@ -168,15 +168,15 @@ fn ground<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     moving.spin_up(row, turn.scale(body.inverse_inertia));
 }
 
-/// What was read before is read again after this: a compiler would keep it, and as there are not enough
-/// registers, write it to the stack.
+/// Forces values read before to be read again after this: the compiler would otherwise keep them and, short of
+/// registers, spill them to the stack.
 #[inline(always)]
 pub(super) fn anew() {
     compiler_fence(Ordering::SeqCst);
 }
 
-/// The `N` levers of a joint between two bodies, one after the other.
-// No lever reads the last one's impulse.
+/// The `N` modes of a joint between two bodies, one after the other.
+// No mode reads the last one's impulse.
 #[allow(unused_assignments)]
 #[inline(always)]
 fn joint<P: Geometry, T: Terms<P>, const REVERSE: bool, const N: usize>(
@@ -208,7 +208,7 @@ fn joint<P: Geometry, T: Terms<P>, const REVERSE: bool, const N: usize>(
     let mut push = P::Vector::ZERO;
     let mut turn = P::Moment::ZERO;
     let mut partner_turn = P::Moment::ZERO;
-    // Written out: of a loop the impulses would be in memory.
+    // Unrolled: in a loop the impulses would be in memory.
     macro_rules! act {
         ($n:literal: $($j:literal)*) => {
             if $n < N {
@@ -245,7 +245,7 @@ fn joint<P: Geometry, T: Terms<P>, const REVERSE: bool, const N: usize>(
     moving.spin_up(other_row, -partner_turn.scale(partner.inverse_inertia));
 }
 
-/// The one lever of a raw spring, along a line, or of a torsion spring.
+/// The single mode of a raw spring, along a line, or of a torsion spring.
 #[inline(always)]
 fn single<P: Geometry, T: Terms<P>, const REVERSE: bool, const LINE: bool>(
     model: &ModelRef<'_, P, T>,

@@ -8,19 +8,19 @@ use crate::geometry::Geometry;
 use crate::real::Real;
 use crate::space::Space;
 
-/// The kick that a sweep follows.
+/// The kick that precedes a damper pass.
 pub(crate) trait Kick<P: Geometry> {
     /// Whether there is one.
     const KNOWN: bool;
-    /// Of how many bodies it knows, where it counts them.
+    /// The number of bodies in the kick, where it is stored.
     fn count(&self) -> Option<usize> {
         None
     }
-    /// What it gave to the body in this row, `None` of the ground.
+    /// The change of velocity of the body in this row, `None` for the ground.
     fn of(&self, row: usize) -> Option<Increment<P::Space>>;
 }
 
-/// A sweep by itself: no kick came before.
+/// A damper pass without a preceding kick.
 pub(crate) struct NoKick;
 
 impl<P: Geometry> Kick<P> for NoKick {
@@ -36,7 +36,7 @@ impl<P: Geometry> Kick<P> for NoKick {
 pub(crate) struct HalfKick<'s, S: Space> {
     pub(crate) wrenches: &'s [Wrench<S>],
     pub(crate) diagonals: &'s [Diagonal<S>],
-    /// \[m/s\] by what bodies fall, `None` where their weights are among the wrenches.
+    /// \[m/s\] the change by gravity, `None` where weights are part of the wrenches.
     pub(crate) fall: Option<S::Vector>,
 }
 
@@ -54,7 +54,7 @@ impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
     }
 }
 
-/// The kick of half a step that stands in place of the wrenches.
+/// The kick of half a step, stored in place of the wrenches.
 pub(crate) struct KeptKick<'s, S: Space> {
     pub(crate) kicks: &'s [Wrench<S>],
 }

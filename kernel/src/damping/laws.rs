@@ -1,7 +1,7 @@
-//! The dampers of laws: the pass that they are handed to.
+//! Damper pass of the laws.
 //!
-//! `(tables, memories, pose, velocities, kick) => velocities`. A law says where its dampers act and how strong they
-//! are; how an impulse is made of that stands here, once for all laws of a model.
+//! `(tables, memories, pose, velocities, kick) => velocities`. A law states where its dampers act and how strong they
+//! are; this module turns that into impulses, once for all laws of a model.
 
 use crate::damping::far::Far;
 use crate::damping::kick::Kick;
@@ -16,7 +16,7 @@ use crate::model::{ModelRef, SharesIn, StatesIn, Terms};
 use crate::real::Real as _;
 use crate::space::Linear as _;
 
-/// Memories of laws and shares of their dampers.
+/// Memories of laws and weights of their dampers.
 pub(crate) type LawsKnown<'s, P, T> = (&'s mut StatesIn<P, T>, &'s SharesIn<P, T>);
 
 /// The dampers of all laws, ascending, or descending with `REVERSE`.
@@ -32,7 +32,7 @@ pub(super) fn sweep_laws<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bo
     }
 }
 
-// Beside it there would not be enough registers for what every damped model does.
+// Not inlined: it would take registers from the code of every damped model.
 #[inline(never)]
 fn sweep_apart<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
@@ -88,7 +88,7 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
         for i in 0..count {
             let i = if REVERSE { count - 1 - i } else { i };
             let (Some(damper), Some(share)) = (dampers.get(i), shares.get(i)) else { break };
-            // Its impulse would be 0.
+            // Its impulse is 0.
             if P::Real::LANES == 1 && idle(damper) {
                 continue;
             }

@@ -1,6 +1,6 @@
-//! One lever of a joint, what it does in half a step, and whether a scheme keeps levers.
+//! One damping mode of a joint and its half-step impulse.
 //!
-//! `(share, time, 1/μ, kick's rate) => impulse per rate, impulse less`.
+//! `(weight, time, 1/μ, kick's rate) => impulse per rate, impulse correction`.
 
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
@@ -10,67 +10,67 @@ use crate::real::Real;
 use crate::record::Direction;
 use crate::space::Linear as _;
 
-/// One lever of a joint, and what it does in half a step at a pose.
+/// One damping mode of a joint, with its half-step coefficients at a pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Lever<P: Geometry> {
-    /// \[√(N·s/m)\] force on the body that sees it at rest, that body's axes; of a raw spring world
+    /// \[√(N·s/m)\] force on the body in whose axes the mode is constant, that body's axes; for a raw spring world
     /// axes.
     pub(super) along: P::Vector,
     /// Moment about that body's centre of mass, its axes.
     pub(super) moment: P::Moment,
     /// Moment of the same force and moment about the other body's centre of mass, that body's axes.
     pub(super) other: P::Moment,
-    /// \[1/s\] rate per impulse, without the other body's turning.
+    /// \[1/s\] rate per impulse, without the rotation of the other body.
     pub(super) rate: P::Real,
     /// \[s\] impulse per rate.
     pub(super) impulse: P::Real,
-    /// The impulse less, ascending, descending: to the ground per rate that the kick gave, else for
-    /// what the kick and moved ground gave.
+    /// Impulse correction, ascending, descending: to the ground per rate of the kick, otherwise for the kick and moved
+    /// ground.
     pub(super) less: [P::Real; 2],
-    /// \[1/s\] rate per impulse along each of the levers before it, of joints between two bodies; and
-    /// without the other body's turning. To the ground the first is the rate that the kick gave.
+    /// \[1/s\] rate per impulse along each preceding mode, for joints between two bodies, and without the rotation of
+    /// the other body. To the ground the first is the rate of the kick.
     pub(super) linked: [P::Real; LINKED],
     pub(super) still: [P::Real; LINKED],
-    /// A stop of the sweeps: of the whole model's in order the one of this row's number.
+    /// An entry of the damper pass: the entry of the whole model with this row's number.
     pub(super) stop: Stop,
 }
 
-/// Levers before the last of six.
+/// Modes before the last of six.
 pub(super) const LINKED: usize = 5;
 
-/// Where a sweep stops, and what acts there.
+/// An entry of the damper pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Stop {
-    /// The body that sees the levers at rest and the other one.
+    /// The body in whose axes the modes are constant, and the other one.
     pub(super) ends: [u16; 2],
     /// The row of the group or of the torsion spring.
     pub(super) of: u16,
-    /// The row of the first lever.
+    /// The row of the first mode.
     pub(super) row: u16,
-    /// How many levers there are; whether dampers act.
+    /// The number of modes; whether dampers act.
     pub(super) count: u8,
-    /// What acts there.
+    /// The kind of the entry.
     pub(super) kind: Kind,
 }
 
-/// What acts at a stop.
+/// The kind of an entry of the damper pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A group's dampers, one by one.
     #[default]
     Dampers,
-    /// The levers of a joint to the ground.
+    /// The modes of a joint to the ground.
     Ground,
-    /// The levers of a joint between two bodies.
+    /// The modes of a joint between two bodies.
     Joint,
-    /// The lever of a raw spring.
+    /// The mode of a raw spring.
     Raw,
-    /// The lever of a torsion spring.
+    /// The mode of a torsion spring.
     Torsion,
 }
 
 impl Stop {
-    /// A stop with its rows: what acts, its first lever, and how many levers.
+    /// An entry with its rows: the kind, its first mode, and the number of modes.
     pub(super) fn new(kind: Kind, ends: [BodyIndex; 2], [of, row, count]: [usize; 3]) -> Self {
         let ends = ends.map(|end| end.0);
         Self { ends, of: of as u16, row: row as u16, count: count as u8, kind }
@@ -78,7 +78,7 @@ impl Stop {
 }
 
 impl<P: Geometry> Lever<P> {
-    /// Its direction, seen from the ends of its joint: of the body that sees it and the other one.
+    /// Its direction for the ends of its joint: the body in whose axes it is constant and the other one.
     pub(super) fn direction(
         &self,
         places: Places<'_, P>,
@@ -94,9 +94,9 @@ impl<P: Geometry> Lever<P> {
         Direction { along, moments }
     }
 
-    /// What it does in half a step `h` \[s\], times its coefficient, with 1/μ = `rate`: of the rate it
-    /// takes `1 − 1/(1 + x + x²/2)`, `x = h·rate`, and is told as any damper (`damping::pair::Damper`)
-    /// of the rate that the kick gave, `kicked`.
+    /// Sets the impulse of half a step `h` \[s\], times the coefficient, with 1/μ = `rate`: it removes the fraction
+    /// `1 − 1/(1 + x + x²/2)`, `x = h·rate`, of the rate, and like any damper (`damping::pair::Damper`) includes the
+    /// rate of the kick, `kicked`.
     #[inline(always)]
     pub(super) fn weigh(
         &mut self,
@@ -117,7 +117,7 @@ impl<P: Geometry> Lever<P> {
         self.less = told.map(|told| told * kicked);
     }
 
-    /// `c` parts of it and `s` of another.
+    /// The linear combination of `c` times it and `s` times another.
     pub(super) fn turned(&self, c: P::Real, other: &Self, s: P::Real) -> Self {
         Self {
             along: self.along * c + other.along * s,
@@ -127,7 +127,7 @@ impl<P: Geometry> Lever<P> {
         }
     }
 
-    /// So many times itself.
+    /// Scales it.
     pub(super) fn scaled(&self, by: P::Real) -> Self {
         self.turned(by, self, P::Real::ZERO)
     }

@@ -1,12 +1,11 @@
-//! Levers: the dampers of a joint as at most six that do not act on one another.
+//! Damping modes (levers): the dampers of a joint as at most six mutually independent dampers.
 //!
-//! `(model, initial pose, step) => levers`. Seen from the joint's second body (from its first, where
-//! the second is the ground) the points of a joint stay where they are but for its deflection, and
-//! with them the 6×6 tensor `C = Σ c·n·nᵀ` of its dampers, n a damper's wrench. A lever is a wrench
-//! of unit coefficient; levers have the same C and are at right angles in the inverse of the pair's
-//! mass: an impulse along one gives no rate along another (one-sided Jacobi rotations, Hestenes
-//! 1958). Joints between the same two bodies share theirs. Between a body and the ground they stay at
-//! right angles for ever; between two bodies as far as the bodies' inertias do not turn.
+//! `(model, initial pose, step) => levers`. In the axes of the joint's second body (of its first, where the second is
+//! the ground) the points of a joint are constant up to its deflection, and so is the 6×6 tensor `C = Σ c·n·nᵀ` of its
+//! dampers, n a damper's wrench. A damping mode is a wrench of unit coefficient; the modes have the same C and are
+//! orthogonal in the inverse of the pair's mass: an impulse along one causes no rate along another (one-sided Jacobi
+//! rotations, Hestenes 1958). Joints between the same two bodies have common modes. Between a body and the ground the
+//! modes stay orthogonal; between two bodies only up to the rotation of the bodies' inertias.
 
 use crate::damping::each_direction;
 use crate::damping::lever::{Kind, Lever, Stop};
@@ -18,8 +17,8 @@ use crate::pose::{Places, placed};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Space as _};
 
-/// The body that sees a group's points at rest and the other one, `None` where none does: raw
-/// elements turn and slide, what has a clearance is not always there, moved ground moves them.
+/// The body in whose axes a group's points are constant and the other one, `None` where there is none: raw elements
+/// rotate and slide, elements with a clearance act only at times, moved ground moves its points.
 #[inline(always)]
 pub(super) fn fixed<P: Geometry, T: Terms<P>>(group: &Group) -> Option<[BodyIndex; 2]> {
     let Group { law, a, b, arms, .. } = *group;
@@ -33,22 +32,22 @@ pub(super) fn fixed<P: Geometry, T: Terms<P>>(group: &Group) -> Option<[BodyInde
         Law::Tsda if T::TSDAS && arms > 1 && (elements == few || elements >= all) => {
             Some(seen(a, b))
         }
-        // Along its line the second body slides with its points.
+        // The second body slides along the line with its points.
         Law::PointOnLine if T::LINES && !b.is_world() && elements >= all => Some([b, a]),
-        // The damper about the normal of a universal joint's axes stands still in neither body.
+        // The direction normal to a universal joint's axes is constant in neither body.
         Law::PointBushing if T::BUSHINGS => Some(seen(a, b)),
         Law::Revolute if T::REVOLUTES && !P::Space::PLANAR => Some(seen(a, b)),
         _ => None,
     }
 }
 
-/// How many levers a joint has: as few as a spherical joint, as a revolute, or as
-/// many as a wrench has components, which always have room.
+/// The number of modes of a joint: those of a spherical joint, of a revolute joint, or the number of components of a
+/// wrench, which always suffices.
 pub(super) const fn counts<P: Geometry>() -> [usize; 3] {
     if P::Space::PLANAR { [2, 2, 3] } else { [3, 5, 6] }
 }
 
-/// What acts at a group's stop, and on which bodies.
+/// The kind of a group's entry, and its bodies.
 fn kind<P: Geometry, T: Terms<P>>(group: &Group) -> (Kind, [BodyIndex; 2]) {
     match fixed::<P, T>(group) {
         Some(ends) if ends[1].is_world() => (Kind::Ground, ends),
@@ -62,7 +61,7 @@ fn kind<P: Geometry, T: Terms<P>>(group: &Group) -> (Kind, [BodyIndex; 2]) {
     }
 }
 
-/// Whether all of a group's dampers act always.
+/// Whether all dampers of a group act at all times.
 #[inline(always)]
 fn whole<P: Geometry, T: Terms<P>>(group: &Group) -> bool {
     group.damper.row().is_some() && !(T::CLEARANCES && group.clearance.row().is_some())
@@ -74,14 +73,14 @@ fn seen(a: BodyIndex, b: BodyIndex) -> [BodyIndex; 2] {
     if b.is_world() { [a, b] } else { [b, a] }
 }
 
-/// The levers of a joint.
+/// The modes of a joint.
 pub(super) fn held<'l, P: Geometry>(group: &Group, levers: &'l [Lever<P>]) -> &'l [Lever<P>] {
     let levers = levers.get(rows::<P>(group)).unwrap_or_default();
     let count = levers.iter().take_while(|lever| lever.rate > P::Real::ZERO).count();
     levers.get(..count).unwrap_or_default()
 }
 
-/// Weighs the levers of joints to the ground, whose 1/μ no pose changes.
+/// Weights the modes of joints to the ground, whose 1/μ is independent of the pose.
 pub(crate) fn weigh<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     shares: &[Share<P::Real>],
@@ -101,18 +100,18 @@ pub(crate) fn weigh<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// The rows of a group's levers.
+/// The rows of a group's modes.
 #[inline(always)]
 pub(super) fn rows<P: Geometry>(group: &Group) -> core::ops::Range<usize> {
     let first = group.damper.row().unwrap_or(0);
     first..first + group.law.damper_rows(group.elements(), P::Space::PLANAR)
 }
 
-/// Joints that are further apart in the model share no levers: the search stays short.
+/// Joints further apart in the model have no common modes, which bounds the search.
 const NEAR: usize = 64;
 
-/// Finds the levers of all joints at a pose, for half a step `h` \[s\], and where a sweep stops: so
-/// many times.
+/// Finds the modes of all joints at a pose, for half a step `h` \[s\], and the entries of a damper pass; returns the
+/// number of entries.
 pub(crate) fn find<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
@@ -152,8 +151,8 @@ pub(crate) fn find<P: Geometry, T: Terms<P>>(
     stops(model, levers)
 }
 
-/// Writes the stops of all that has dampers, groups before torsion springs; how many there are. A joint
-/// whose levers are all another's has none.
+/// Writes the entries of all elements with dampers, groups before torsion springs; returns their number. A joint whose
+/// modes are all part of another's has none.
 fn stops<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>, levers: &mut [Lever<P>]) -> u16 {
     let mut number = 0;
     for (of, group) in model.groups.iter().enumerate() {
@@ -179,21 +178,21 @@ fn stops<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>, levers: &mut [Lev
     number
 }
 
-/// Writes one more stop.
+/// Writes one more entry.
 fn add<P: Geometry>(levers: &mut [Lever<P>], number: u16, stop: Stop) -> u16 {
     let Some(lever) = levers.get_mut(usize::from(number)) else { return number };
     lever.stop = stop;
     number + 1
 }
 
-/// What the masses of a pair make of levers.
+/// The inverse masses of a pair, as a metric of modes.
 struct Metric<P: Geometry> {
     inverse_mass: P::Real,
     own: P::Moment,
     other: P::Moment,
 }
 
-/// Turns of a pair of levers towards right angles, at most: they converge in a few.
+/// The largest number of Jacobi sweeps over a pair's modes; a few suffice.
 const SWEEPS: u32 = 40;
 
 impl<P: Geometry> Metric<P> {
@@ -215,8 +214,7 @@ impl<P: Geometry> Metric<P> {
             + a.other.dot(b.other.scale(self.other))
     }
 
-    /// Turns two levers until they are at right angles, the stronger one first; whether they were
-    /// not.
+    /// Rotates two modes until they are orthogonal, the stronger one first; returns whether they were not.
     fn turn(&self, a: &mut Lever<P>, b: &mut Lever<P>) -> bool {
         let (x, y, xy) = (self.rate(a, a), self.rate(b, b), self.rate(a, b));
         let least = P::Real::from_f64(8.0) * P::Real::epsilon();
@@ -235,7 +233,7 @@ impl<P: Geometry> Metric<P> {
         let (strong, weak, least) =
             if y > x { (second, first, least * y) } else { (first, second, least * x) };
         *a = strong;
-        // What rounding leaves is none.
+        // A remainder of the size of rounding counts as 0.
         let rest = self.rate(&weak, &weak);
         *b = if rest > P::Real::from_f64(32.0) * P::Real::epsilon() * least {
             weak
@@ -245,7 +243,7 @@ impl<P: Geometry> Metric<P> {
         crossed
     }
 
-    /// Brings one more lever in. With as many places as levers, or with six, there is always one.
+    /// Inserts one more mode. With as many slots as modes, or with six, there is always a free one.
     fn insert(&self, shared: &mut [Lever<P>], own: &mut [Lever<P>], mut lever: Lever<P>) {
         let count = shared.len() + own.len();
         let mut crossed = true;
@@ -267,8 +265,7 @@ impl<P: Geometry> Metric<P> {
         }
     }
 
-    /// Takes the parts of rates that no pose changes. Beyond `LARGEST`
-    /// of h/μ nothing changes any more.
+    /// Sets the rates that are independent of the pose. Beyond `LARGEST` of h/μ the result is constant.
     fn finish(&self, levers: &mut [Lever<P>], h: P::Real) {
         let largest = P::Real::from_f64(LARGEST);
         for i in 0..levers.len() {
@@ -286,16 +283,16 @@ impl<P: Geometry> Metric<P> {
     }
 }
 
-/// The largest h/μ of a lever: its square is a number in single precision.
+/// The largest h/μ of a mode: its square is finite in single precision.
 pub(super) const LARGEST: f64 = 1e12;
 
-/// Element `i` of two slices after one another.
+/// Element `i` of two concatenated slices.
 fn one<'s, L>(first: &'s mut [L], second: &'s mut [L], i: usize) -> Option<&'s mut L> {
     let before = first.len();
     if i < before { first.get_mut(i) } else { second.get_mut(i - before) }
 }
 
-/// Elements `i < j` of two slices after one another.
+/// Elements `i < j` of two concatenated slices.
 fn two<'s, L>(
     first: &'s mut [L],
     second: &'s mut [L],

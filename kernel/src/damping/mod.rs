@@ -1,26 +1,22 @@
 //! Dampers as pairwise impulses: stable at any coefficient.
 //!
-//! `(pose, velocities, kick, h) => velocities`. For each damper along a direction u with rate
-//! `r = u·v_rel` and effective mass μ, `1/μ = Σ_bodies (1/m + (r×u)ᵀ·I⁻¹·(r×u))`, an impulse takes
-//! the share `1 − exp(−x)` of the rate, `x = h·c/μ` (compare Shardlow 2003). One sweep goes through
-//! all dampers in ascending order in the first half of a step, one in descending order in the
-//! second: second order. `exp(−x)` is replaced by `1/(1 + x + x²/2)`: in (0, 1], second order, plain
-//! arithmetic.
+//! `(pose, velocities, kick, h) => velocities`. For each damper along a direction u with rate `r = u·v_rel` and
+//! effective mass μ, `1/μ = Σ_bodies (1/m + (r×u)ᵀ·I⁻¹·(r×u))`, an impulse removes the fraction `1 − exp(−x)` of the
+//! rate, `x = h·c/μ` (compare Shardlow 2003). One damper pass (sweep) visits all dampers in ascending order in the
+//! first half of a step, one in descending order in the second half: second order. `exp(−x)` is replaced by
+//! `1/(1 + x + x²/2)`: in (0, 1], second order, plain arithmetic.
 //!
-//! A sweep that follows a kick is told of it: a force that lasts while the damper acts does not come
-//! before it. The rate then follows the flow of `ṙ = a − (c/μ)·r`, `a` the kick's acceleration along
-//! u, and a strong damper leaves `a·μ/c`, at which it bears the force, where a sweep by itself would
-//! leave next to nothing ([`Share`]: dampers that bear a force together). At
-//! rest under any forces it does nothing.
+//! A damper pass includes the kick before it, because the force acts at the same time as the damper, not before it. The
+//! rate then follows the flow of `ṙ = a − (c/μ)·r`, `a` the kick's acceleration along u, and a strong damper leaves
+//! `a·μ/c`, at which it balances the force; a pass without the kick would leave almost 0 ([`Share`]: several dampers on
+//! one force). At rest under balanced forces a pass does nothing.
 //!
-//! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the
-//! world's axes, a point on a line along the line's two normals, a revolute of bushings along its axis
-//! and the normals and about these, a universal joint as a bushing and about the normal of its axes, one
-//! after the other.
-//! Velocities are rounded once per pair, not once per damper; in single precision once per pass.
-//! Linear momentum is always kept. Angular momentum is kept by dampers of TSDAs with a free length and of
-//! torsion springs; a damped bushing or point on a line has the law `c·v_rel`, whose torque vanishes only
-//! with its deflection.
+//! A TSDA damps along its line, a torsion spring along its gradient, a point bushing along the world's axes, a point on
+//! a line along the line's two normals, a revolute of bushings along and about its axis and the normals, a universal
+//! joint as a bushing and about the normal of its axes, one after the other. Velocities are rounded once per pair, not
+//! once per damper; in single precision once per pass. Linear momentum is always conserved. Angular momentum is
+//! conserved by dampers of TSDAs with a free length and of torsion springs; a damped bushing or point on a line has the
+//! law `c·v_rel`, whose torque vanishes only with its deflection.
 
 mod far;
 mod joints;
@@ -70,9 +66,9 @@ use crate::space::{Linear as _, Vector as _};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Damping {
-    /// A sweep of half a step after each half kick, or around a composition: of this module.
+    /// A damper pass of half a step after each half kick, or around a composition: this module.
     Sweeps,
-    /// As sweeps, with a joint's dampers at once, as they stand at the start seen from its body.
+    /// As `Sweeps`, with all dampers of a joint at once, constant in the axes of one of its bodies.
     JointWise,
     /// Forces at the velocities of each evaluation: limits the step to about 2·m/c.
     Explicit,
@@ -93,8 +89,7 @@ impl Damping {
     }
 }
 
-/// One pass over all dampers, ascending, or descending with `REVERSE`; groups come before torsion
-/// springs, and these before laws, in ascending order.
+/// One pass over all dampers, ascending, or descending with `REVERSE`: groups, then torsion springs, then laws.
 #[inline(always)]
 pub(crate) fn sweep<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
@@ -110,7 +105,7 @@ pub(crate) fn sweep<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     }
 }
 
-// One body of it for all schemes.
+// Compiled once for all schemes.
 fn sweep_apart<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
@@ -121,7 +116,7 @@ fn sweep_apart<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     sweep_here::<P, T, K, REVERSE>(model, sweep, laws, bodies, sums);
 }
 
-// Lanes are stepped by a function that may use more instructions than its callees: it has none.
+// Inlined for lanes: they are stepped by a function with more target features than its callees.
 #[inline(always)]
 fn sweep_here<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
@@ -191,7 +186,7 @@ fn sweep_group<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     pair.store::<P>(moving);
 }
 
-/// The pair of two ends; moved ground has its rate.
+/// The pair of two ends; moved ground has a rate.
 #[inline(always)]
 fn new_pair<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
@@ -234,7 +229,7 @@ fn each_direction<P: Geometry, T: Terms<P>, const REVERSE: bool>(
     }
 }
 
-/// The directions of the dampers that hold the axes of a joint: moments alone.
+/// The directions of the dampers that align the axes of a joint: moments only.
 #[inline(always)]
 fn each_turn<P: Geometry, T: Terms<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
@@ -253,7 +248,7 @@ fn each_turn<P: Geometry, T: Terms<P>, const REVERSE: bool>(
     }
 }
 
-/// A moment in world axes as a body sees it; the ground sees none.
+/// A moment in world axes in the axes of a body; 0 for the ground.
 #[inline(always)]
 fn moment<P: Geometry>(places: Places<'_, P>, body: BodyIndex, world: P::Moment) -> P::Moment {
     match places.frames.get(body.row()) {
@@ -262,10 +257,10 @@ fn moment<P: Geometry>(places: Places<'_, P>, body: BodyIndex, world: P::Moment)
     }
 }
 
-/// A point of a star's second end, with its damper's coefficient and share.
+/// A point of a triple's second end, with its damper's coefficient and weight.
 type Damped<'s, P, R> = (&'s Spot<P>, (&'s R, &'s Share<R>));
 
-/// The stars of a group without clearance: the two bodies' velocities are at hand until the last
+/// The spring triples of a group without clearance: the two bodies' velocities stay in registers until the last
 /// element.
 #[inline(always)]
 fn sweep_stars<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
@@ -276,7 +271,7 @@ fn sweep_stars<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     moving: &mut Moving<'_, P>,
 ) {
     let places = sweep.places;
-    // A number at run time, and one body of the loop: unrolled it takes more flash and is no faster.
+    // A run-time count and a single loop body: unrolled it takes more flash and is no faster.
     let arms = (group.arms as usize).clamp(1, MOST_ARMS);
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
@@ -328,7 +323,7 @@ fn sweep_stars<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     pair.store::<P>(moving);
 }
 
-/// What acts of an element's damper beyond its clearance; without one all of it.
+/// The active part of an element's damper beyond its clearance; without a clearance all of it.
 #[inline(always)]
 fn engaged<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
@@ -344,7 +339,7 @@ fn engaged<P: Geometry, T: Terms<P>>(
     clearance::engaged(damping, extension, clearance)
 }
 
-/// A torsion spring's damper, along the gradient of its twist.
+/// A torsion spring's damper, along the gradient of its torsion angle.
 #[inline(always)]
 fn torsion<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
@@ -363,8 +358,8 @@ fn torsion<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     pair.store::<P>(moving);
 }
 
-/// The direction of a torsion spring's damper: moments alone. An undefined twist has none; it is
-/// left to the next evaluation, which reports it.
+/// The direction of a torsion spring's damper: moments only. An undefined torsion angle has none; the next evaluation
+/// reports it.
 #[inline(always)]
 fn torsion_direction<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,

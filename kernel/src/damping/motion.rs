@@ -1,7 +1,7 @@
-//! Dampers at a pose, and how an impulse along one moves the others.
+//! Dampers at a pose, and the coupling of their impulses.
 //!
-//! `(model, pose) => directions of dampers, motion per impulse, rates`. For what looks at dampers
-//! before a run or beside it; the sweeps of a step have a way of their own.
+//! `(model, pose) => directions of dampers, motion per impulse, rates`. For analyses before or during a run; the damper
+//! passes of a step have code of their own.
 
 use crate::body::{BodyState, Increment};
 use crate::damping::lever::Lever;
@@ -17,7 +17,7 @@ use crate::real::{Real, Truth as _};
 use crate::record::Direction;
 use crate::space::{Linear as _, Moment as _, Space};
 
-/// What an impulse of 1 along a damper does to its two bodies.
+/// The response of two bodies to a unit impulse along a damper.
 #[derive(Clone, Copy)]
 pub(super) struct Motion<S: Space> {
     bodies: [BodyIndex; 2],
@@ -25,11 +25,11 @@ pub(super) struct Motion<S: Space> {
     /// `K_ii`, 1/μ.
     pub(super) rate: S::Real,
     coefficient: S::Real,
-    /// The lanes in which it moves anything.
+    /// The lanes in which the impulse moves anything.
     pub(super) known: <S::Real as Real>::Truth,
 }
 
-/// Where dampers stand: groups in order, then torsion springs, then laws.
+/// The mount of a damper: groups in order, then torsion springs, then laws.
 #[derive(Clone, Copy)]
 pub(super) enum Mount {
     Group(usize),
@@ -38,7 +38,7 @@ pub(super) enum Mount {
 }
 
 impl Mount {
-    /// The one at a place among so many groups and torsion springs.
+    /// The mount at an index, for the given numbers of groups and torsion springs.
     fn at(place: usize, [groups, torsions]: [usize; 2]) -> Self {
         match place.checked_sub(groups) {
             None => Self::Group(place),
@@ -58,9 +58,9 @@ pub(crate) struct Pose<'s, 'm, P: Geometry, T: Terms<P>> {
     pub(crate) model: &'s ModelRef<'m, P, T>,
     pub(crate) places: Places<'s, P>,
     pub(crate) bodies: &'s [BodyState<P>],
-    /// Turn counts of torsion springs, memories of laws.
+    /// Revolution counts of torsion springs, memories of laws.
     pub(crate) memories: (&'s [i32], &'s StatesIn<P, T>),
-    /// The joints' levers, which stand for their dampers; none where dampers act one by one.
+    /// The joints' damping modes, which represent their dampers; empty where dampers act one by one.
     pub(crate) levers: &'s [Lever<P>],
 }
 
@@ -78,7 +78,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         self.model.groups.len() + self.model.torsions.len() + self.model.laws.count()
     }
 
-    /// Takes note of which body holds which mount; `held` has an empty one per body.
+    /// Records which body has which mount; `held` has an empty entry per body.
     pub(super) fn hold(&self, held: &mut [Held]) {
         for (place, mount) in self.mounts().enumerate() {
             if let Some(ends) = self.ends(mount) {
@@ -87,7 +87,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         }
     }
 
-    /// The mounts with dampers that share a body with a pair, in order: place, mount, bodies.
+    /// The mounts with dampers that share a body with a pair, in order: index, mount, bodies.
     pub(super) fn meeting<'h>(
         &self,
         held: &'h [Held],
@@ -115,7 +115,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
             Mount::Law(row) => {
                 let mut ends = None;
                 self.model.laws.look(row, self.memories.1, &mut |law| {
-                    // With branches it moves more than two bodies: it stands alone.
+                    // With branches it moves more than two bodies and is treated alone.
                     let pair = law.dampers() > 0 && law.most_branches() == 0;
                     ends = pair.then_some(law.bodies());
                 });
@@ -125,8 +125,8 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         damper.row().map(|_| ends)
     }
 
-    /// Visits the dampers of a mount direction by direction: row, of a law's its number there, part of the direction in its
-    /// damper, coefficient, direction.
+    /// Visits the dampers of a mount direction by direction: row (for a law the damper's number in the law), fraction
+    /// of the direction in its damper, coefficient, direction.
     pub(super) fn each_damper(
         &self,
         mount: Mount,
@@ -226,7 +226,7 @@ impl<S: Space> Motion<S> {
         rate
     }
 
-    /// The power that a damper takes from this motion, over what the motion's own damper takes.
+    /// The power that a damper takes from this motion, over the power of the motion's own damper.
     pub(super) fn power(
         &self,
         ends: [BodyIndex; 2],

@@ -1,22 +1,22 @@
-//! The bodies of a damper pass.
+//! The state of the bodies during a damper pass.
 //!
-//! `(velocities, kick, impulses) => velocities`. A velocity in single precision has no digits for what one
-//! joint's dampers take from it, and rounds them off the same way step after step: there the kick and the
-//! impulses of a pass are summed apart, and each velocity is rounded once per pass.
+//! `(velocities, kick, impulses) => velocities`. A velocity in single precision cannot resolve the impulse of one
+//! joint's dampers and rounds it in the same direction step after step: there the kick and the impulses of a pass are
+//! summed separately, and each velocity is rounded once per pass.
 
 use crate::body::BodyState;
 use crate::damping::kick::Kick;
 use crate::geometry::Geometry;
 use crate::pass_sum::PassSum;
 
-/// The bodies' states, and what the pass has given to them.
+/// The bodies' states and the sums of the pass.
 pub(super) struct Moving<'s, P: Geometry> {
     pub(super) states: &'s mut [BodyState<P>],
     sums: &'s mut [P::PassSum],
 }
 
 impl<'s, P: Geometry> Moving<'s, P> {
-    /// Begins a pass. Sums begin with the kick, which no velocity has taken then.
+    /// Begins a pass. The sums begin with the kick, which the velocities do not include yet.
     #[inline(always)]
     pub(super) fn begin<K: Kick<P>>(
         states: &'s mut [BodyState<P>],
@@ -33,7 +33,7 @@ impl<'s, P: Geometry> Moving<'s, P> {
         Self { states, sums }
     }
 
-    /// \[m/s\] (world) and \[rad/s\] (body axes) of the body in a row; `None` of the ground.
+    /// \[m/s\] (world) and \[rad/s\] (body axes) of the body in a row; `None` for the ground.
     #[inline(always)]
     pub(super) fn velocities(&self, row: usize) -> Option<(P::Vector, P::Moment)> {
         let state = self.states.get(row)?;
@@ -69,7 +69,7 @@ impl<'s, P: Geometry> Moving<'s, P> {
         }
     }
 
-    /// Ends a pass: velocities take the sums.
+    /// Ends a pass: adds the sums to the velocities.
     #[inline(always)]
     pub(super) fn end(self) {
         for (state, sum) in self.states.iter_mut().zip(self.sums) {

@@ -1,31 +1,31 @@
-//! Which mounts of dampers share a body: so that not every one is held against every other.
+//! Which mounts of dampers share a body, so that not all pairs need to be compared.
 //!
-//! `(model) => per body the first mounts that it holds => of a pair all that may meet it`, in
-//! ascending order. A body that holds more than it keeps is taken to hold any.
+//! `(model) => per body its first mounts => for a pair all candidates`, in ascending order. A body with more mounts
+//! than are stored counts as sharing all.
 
 use core::iter::Peekable;
 
 use crate::index::BodyIndex;
 
-/// Mounts that a body keeps: a link has two joints, and on each a spring of two kinds.
+/// Stored mounts per body: a link has two joints, each with springs of two kinds.
 const KEPT: usize = 8;
 
-/// The mounts of dampers that a body holds, ascending.
+/// The mounts of dampers on a body, ascending.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Held {
     rows: [u32; KEPT],
-    /// Those that it holds, also beyond what it keeps.
+    /// The number of mounts, stored or not.
     count: u32,
 }
 
 impl Held {
-    /// The mounts that it keeps, `None` where there are more.
+    /// The stored mounts, `None` where there are more.
     fn kept(&self) -> Option<&[u32]> {
         self.rows.get(..self.count as usize)
     }
 }
 
-/// Takes note of a mount between two bodies; mounts come in ascending order.
+/// Records a mount between two bodies; mounts come in ascending order.
 pub(super) fn hold(held: &mut [Held], ends: [BodyIndex; 2], mount: usize) {
     let [a, b] = ends;
     for body in [Some(a), (a != b).then_some(b)].into_iter().flatten() {
@@ -37,7 +37,7 @@ pub(super) fn hold(held: &mut [Held], ends: [BodyIndex; 2], mount: usize) {
     }
 }
 
-/// Of `mounts` those that may share a body with a pair, ascending, none twice.
+/// Those of `mounts` that may share a body with a pair, ascending, without duplicates.
 pub(super) fn near(held: &[Held], ends: [BodyIndex; 2], mounts: usize) -> Near<'_> {
     let [a, b] = ends.map(|body| held.get(body.row()).map_or(Some(&[][..]), Held::kept));
     match (a, b) {
@@ -89,8 +89,8 @@ mod tests {
         held
     }
 
-    /// A body's joints, then their springs, and a hub with all of them: none that meets is missed,
-    /// and the order is that of the scene.
+    /// A body's joints, then their springs, and a hub with all of them: no mount that shares a body is missed, and the
+    /// order is that of the scene.
     #[test]
     fn all_that_meet_are_near_in_order() {
         let chain = (0..30_u16)
@@ -112,7 +112,7 @@ mod tests {
         }
     }
 
-    /// In a chain with springs beside its joints a mount looks at six, however long the chain is.
+    /// In a chain with springs parallel to its joints each mount has six candidates, however long the chain is.
     #[test]
     fn what_is_looked_at_grows_with_the_bodies_alone() {
         let looks = |bodies: u16| {

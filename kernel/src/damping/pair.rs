@@ -1,4 +1,4 @@
-//! The two bodies of a damper while it pushes them.
+//! The two bodies of a damper during its impulse.
 //!
 //! `(direction and moments, rate, kick's rate, coefficient, time) => impulse on both`.
 
@@ -11,29 +11,29 @@ use crate::real::{Real, Truth as _};
 use crate::record::Direction;
 use crate::space::{Linear as _, Moment as _, Space};
 
-/// What a damper knows of itself besides its levers.
+/// The constants of a damper apart from its direction.
 #[derive(Clone, Copy)]
 pub(super) struct Damper<R> {
     /// \[N·s/m\] or \[N·m·s/rad\] coefficient.
     pub(super) coefficient: R,
-    /// Its share in what it bears together with others.
+    /// Its weight among the dampers that act on a common force.
     pub(super) own: R,
-    /// The share of those that act after it.
+    /// The weight of the dampers that act after it.
     pub(super) later: R,
-    /// \[s\] for how long it acts.
+    /// \[s\] the duration of its action.
     pub(super) h: R,
 }
 
-/// What bounds a damper's impulse: the rate it goes towards, its least and its largest impulse \[N·s\], whether it takes no
-/// more than all of the rate.
+/// The limits of a damper's impulse: its target rate, its smallest and its largest impulse \[N·s\], and whether it is
+/// limited to stopping the rate.
 pub(super) type Limits<R> = (R, [R; 2], bool);
 
 impl<R: Real> Damper<R> {
-    /// `(h·c/μ, impulse per relative velocity μ·s/(1 + s))`, `s = x + x²/2` and `x = h·c/μ`, from
-    /// `1/μ > 0`: a share of μ in \[0, 1\].
+    /// `(h·c/μ, impulse per relative velocity μ·s/(1 + s))`, `s = x + x²/2` and `x = h·c/μ`, from `1/μ > 0`: a fraction
+    /// of μ in \[0, 1\].
     ///
-    /// Written as `1/((1/μ)·(1 + 1/s))`, which neither cancels where x is small nor fails where s
-    /// overflows; a damper without a coefficient gives 0.
+    /// Written as `1/((1/μ)·(1 + 1/s))`, which neither cancels for small x nor fails where s overflows; without a
+    /// coefficient the result is 0.
     #[inline(always)]
     fn impulse_per_rate(&self, inverse: R) -> (R, R) {
         let x = self.h * self.coefficient * inverse;
@@ -41,17 +41,16 @@ impl<R: Real> Damper<R> {
         (x, R::ONE / (inverse * (R::ONE + R::ONE / s)))
     }
 
-    /// The part of what the kick just gave that this damper has not met with yet: all that is for
-    /// those that come after it, and of its own share what came later than it acted on,
-    /// `1/(2 + x)`. So dampers that act on one rate one after the other leave
-    /// `rate/D + kick·(1 − 1/D)/X`, `D = Π(1 + s)`, `X = Σx`: the flow of `ṙ = a − (c/μ)·r`.
+    /// The part of the last kick that this damper has not yet acted on: the whole weight of the dampers after it, and
+    /// `1/(2 + x)` of its own. Dampers that act on one rate one after the other then leave `rate/D + kick·(1 − 1/D)/X`,
+    /// `D = Π(1 + s)`, `X = Σx`: the flow of `ṙ = a − (c/μ)·r`.
     #[inline(always)]
     fn unmet(&self, x: R) -> R {
         self.later + self.own / (R::TWO + x)
     }
 
-    /// Its impulse from `[1/μ, rate, the kick's rate]`: towards a rate, within bounds \[N·s\], and within what stops the
-    /// rate if it brakes.
+    /// Its impulse from `[1/μ, rate, the kick's rate]`: towards the target rate, within the bounds \[N·s\], and, if it
+    /// brakes, at most the impulse that stops the rate.
     #[inline(always)]
     pub(super) fn impulse(
         &self,
@@ -75,19 +74,19 @@ impl<R: Real> Damper<R> {
     }
 }
 
-/// One of a pair's bodies while its dampers turn it.
+/// One of a pair's bodies during its dampers' impulses.
 #[derive(Clone, Copy)]
 struct Side<S: Space> {
     inverse_inertia: S::Moment,
-    /// \[rad/s\] body axes, before.
+    /// \[rad/s\] angular velocity before the pass, body axes.
     spin: S::Moment,
-    /// \[rad/s\] what the kick gave to it.
+    /// \[rad/s\] its change by the kick.
     kick: S::Moment,
-    /// \[rad/s\] what the dampers gave to it so far.
+    /// \[rad/s\] its change by the dampers so far.
     turn: S::Moment,
 }
 
-/// The body in a row with its inverse mass, velocity and what the kick gave to that.
+/// The body in a row with its inverse mass, velocity and the velocity's change by the kick.
 #[inline(always)]
 #[allow(clippy::type_complexity)]
 fn side<P: Geometry, T: Terms<P>, K: Kick<P>>(
@@ -113,23 +112,23 @@ impl<S: Space> Side<S> {
         moment.dot(self.spin + self.turn)
     }
 
-    /// What an impulsive moment does.
+    /// Adds the response to an impulsive moment.
     #[inline(always)]
     fn turn(&mut self, response: S::Moment) {
         self.turn = self.turn + response;
     }
 }
 
-/// A pair's two bodies while its dampers push them. Impulses are summed apart from the velocities,
-/// which are rounded once per pair, not once per damper: a fast body's velocity in single precision
-/// has no digits for what one damper of its joint takes away.
+/// The two bodies of a pair during its dampers' impulses. Impulses are summed separately from the velocities, which are
+/// rounded once per pair, not once per damper: a fast body's velocity in single precision cannot resolve the impulse of
+/// a single damper of its joint.
 pub(super) struct Pair<S: Space> {
     rows: [usize; 2],
     sides: [Option<Side<S>>; 2],
     inverse_masses: [S::Real; 2],
-    /// \[m/s\] of the second body less that of the first, moved ground included, before.
+    /// \[m/s\] of the second body minus that of the first, moved ground included, before the pass.
     velocity: S::Vector,
-    /// \[m/s\] what the kick gave to it.
+    /// \[m/s\] its change by the kick.
     kick: S::Vector,
     /// \[N·s\] on the first body so far, the second's reversed.
     impulse: S::Vector,
@@ -177,13 +176,13 @@ impl<S: Space> Pair<S> {
         }
     }
 
-    /// Whether the first, the second end is a body.
+    /// Whether the first or the second end is a body.
     #[inline(always)]
     pub(super) fn has(&self, end: usize) -> bool {
         matches!(self.sides.get(end), Some(Some(_)))
     }
 
-    /// One damper acts, but in lanes where it is idle.
+    /// Applies one damper, except in lanes where it is idle.
     #[inline(always)]
     pub(super) fn damp<
         P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
@@ -201,7 +200,8 @@ impl<S: Space> Pair<S> {
         });
     }
 
-    /// One damper acts towards a rate, its impulse within bounds \[N·s\], and within what stops the rate if it brakes.
+    /// Applies one damper towards a target rate, its impulse within the bounds \[N·s\] and, if it brakes, at most the
+    /// impulse that stops the rate.
     #[inline(always)]
     pub(super) fn damp_within<
         P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
@@ -218,8 +218,8 @@ impl<S: Space> Pair<S> {
         });
     }
 
-    /// An impulse along a direction, `(1/μ, rate, the kick's rate) => impulse`, but in lanes where it is idle; on a
-    /// part of a law's own freedom, too.
+    /// Applies an impulse along a direction, `(1/μ, rate, the kick's rate) => impulse`, except in lanes where it is
+    /// idle; also on a law's internal degree of freedom.
     #[inline(always)]
     fn push<
         P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
@@ -260,7 +260,7 @@ impl<S: Space> Pair<S> {
                 kick = kick + *part * inner.kick;
             }
         }
-        // Without a direction (coincident points) nothing can be pushed.
+        // Without a direction (coincident points) there is no impulse.
         let idle = idle | inverse.equals(S::Real::ZERO);
         if idle.all() {
             return;
@@ -278,7 +278,7 @@ impl<S: Space> Pair<S> {
         }
     }
 
-    /// Adds what the dampers did to the bodies.
+    /// Adds the dampers' impulses to the bodies.
     #[inline(always)]
     pub(super) fn store<
         P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
@@ -309,7 +309,7 @@ mod tests {
         Damper { coefficient, own: R::ONE, later: R::ZERO, h: R::ONE }
     }
 
-    /// The share of a relative velocity that a damper takes away.
+    /// The fraction of a relative velocity that a damper removes.
     fn removed<R: Real>(x: f64, inverse: f64) -> f64 {
         let inverse_real = R::from_f64(inverse);
         (damper::<R>(x, inverse).impulse_per_rate(inverse_real).1 * inverse_real).to_f64()

@@ -1,4 +1,4 @@
-//! What a pass over dampers knows.
+//! The data of a damper pass.
 
 use crate::body::BodyState;
 use crate::damping::kick::Kick;
@@ -11,21 +11,20 @@ use crate::real::Real as _;
 
 /// One pass over all dampers.
 pub(crate) struct Sweep<'s, P: Geometry, K> {
-    /// \[s\] for how long they act.
+    /// \[s\] the duration of the dampers' action.
     pub(crate) h: P::Real,
     /// The present pose.
     pub(crate) places: Places<'s, P>,
-    /// The torsion springs' turn counts.
+    /// The torsion springs' revolution counts.
     pub(crate) turns: &'s [i32],
-    /// What each bears of what it bears together with others.
+    /// The weight of each damper among those that act on a common force.
     pub(crate) shares: &'s [Share<P::Real>],
     /// The kick just before.
     pub(crate) kick: K,
 }
 
 impl<P: Geometry, K: Kick<P>> Sweep<'_, P, K> {
-    /// Whether all that is kept per body is of as many: a row of one is then a row of the others, which
-    /// a compiler does not look up again.
+    /// Whether all arrays per body have the same length, so that the compiler can drop bounds checks after the first.
     #[inline(always)]
     pub(super) fn is_of<T: Terms<P>>(
         &self,
@@ -40,7 +39,7 @@ impl<P: Geometry, K: Kick<P>> Sweep<'_, P, K> {
 }
 
 impl<P: Geometry, K> Sweep<'_, P, K> {
-    /// A damper of this coefficient, with its share; in descending order those before it follow.
+    /// A damper with this coefficient and its weight; in descending order the dampers before it follow.
     #[inline(always)]
     pub(super) fn damper<const REVERSE: bool>(
         &self,

@@ -1,8 +1,8 @@
-//! Makes levers ready for a pose and a kick.
+//! Prepares damping modes for a pose and a kick.
 //!
-//! `(pose, wrenches, torsion springs' turns) => moments on the other body, impulse per rate, impulse
-//! less`. Once per pose: for the sweep before a step's end and the one at the start of the next.
-//! Those of joints to the ground are but told of the kick.
+//! `(pose, wrenches, revolution counts) => moments on the other body, impulse per rate, impulse correction`. Done
+//! once per pose, for the pass before a step's end and the one at the start of the next. Modes of joints to the ground
+//! need only the kick.
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
@@ -18,8 +18,8 @@ use crate::pose::{End, placed};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Space as _, Vector as _};
 
-/// Makes all levers ready: for this pose and for the kick of `sweep`. In descending order those of joints
-/// to the ground are told in the sweep itself.
+/// Prepares all modes for this pose and for the kick of `sweep`. In descending order the pass itself includes the kick
+/// in those of joints to the ground.
 pub(crate) fn prepare<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
@@ -36,7 +36,7 @@ pub(crate) fn prepare<P: Geometry, T: Terms<P>, K: Kick<P>>(
         let (Some(own), Some(shares)) = (levers.get_mut(row..), sweep.shares.get(row..)) else {
             break;
         };
-        // Not sorted out before: the table of a match would have a place for what cannot come.
+        // Not filtered before: the match's jump table would have entries for impossible cases.
         match stop.kind {
             Kind::Ground => {
                 if !reverse {
@@ -98,7 +98,7 @@ fn touches<P: Geometry, T: Terms<P>, K: Kick<P>>(
     })
 }
 
-/// Tells the levers of a joint to the ground what the kick gave.
+/// Includes the kick in the modes of a joint to the ground.
 #[inline(always)]
 fn told<P: Geometry, K: Kick<P>>(sweep: &Sweep<'_, P, K>, stop: &Stop, levers: &mut [Lever<P>]) {
     let row = usize::from(stop.ends[0]);
@@ -111,7 +111,7 @@ fn told<P: Geometry, K: Kick<P>>(sweep: &Sweep<'_, P, K>, stop: &Stop, levers: &
     }
 }
 
-/// The `N` levers of a joint between two bodies.
+/// The `N` modes of a joint between two bodies.
 #[inline(always)]
 fn hold<P: Geometry, T: Terms<P>, K: Kick<P>, const N: usize>(
     model: &ModelRef<'_, P, T>,
@@ -141,12 +141,12 @@ fn hold<P: Geometry, T: Terms<P>, K: Kick<P>, const N: usize>(
     let pushed = P::to_body(frame, kick.linear - partner_kick.linear);
     let apart = P::position(&state.position) - P::position(&partner_state.position);
     let apart = P::to_body(frame, apart);
-    // The body's axes as its partner sees them.
+    // The body's axes in its partner's axes.
     let mut axes = P::moment_axes(frame);
     for axis in &mut axes {
         *axis = P::moment_to_body(partner_frame, *axis);
     }
-    // Written out: of a loop the moments would be in memory.
+    // Unrolled: in a loop the moments would be in memory.
     macro_rules! see {
         ($($i:literal)*) => {$(
             if $i < N {
@@ -180,7 +180,7 @@ fn hold<P: Geometry, T: Terms<P>, K: Kick<P>, const N: usize>(
     ready!(5: 0 1 2 3 4);
 }
 
-/// The lever of a raw spring, world axes.
+/// The mode of a raw spring, world axes.
 #[inline(never)]
 fn line<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
@@ -230,7 +230,7 @@ fn line<P: Geometry, T: Terms<P>, K: Kick<P>>(
     }
 }
 
-/// The lever of a torsion spring: moments along the gradient of its twist.
+/// The mode of a torsion spring: moments along the gradient of its torsion angle.
 #[inline(always)]
 fn twist<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
@@ -250,7 +250,7 @@ fn twist<P: Geometry, T: Terms<P>, K: Kick<P>>(
         P::Orientation::relative(orientation(spring.a.row()), orientation(spring.b.row()));
     let gradient = match spring.since_start(relative) {
         Some(since) => since.gradient(spring.axis),
-        // Left to the next evaluation, which reports it.
+        // The next evaluation reports it.
         None => P::Moment::ZERO,
     };
     let world = match sweep.places.frames.get(spring.a.row()) {
@@ -274,7 +274,7 @@ fn twist<P: Geometry, T: Terms<P>, K: Kick<P>>(
     weigh(sweep, (lever, share), coefficient, own.1 + other.1, own.2 - other.2);
 }
 
-/// Weighs the one lever of a spring with its coefficient. Without a direction, 1/μ = 0, it does nothing.
+/// Weights the single mode of a spring with its coefficient. Without a direction, 1/μ = 0, it does nothing.
 #[inline(always)]
 fn weigh<P: Geometry, K: Kick<P>>(
     sweep: &Sweep<'_, P, K>,

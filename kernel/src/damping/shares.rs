@@ -1,11 +1,10 @@
-//! Which share of a force that dampers bear together each of them bears.
+//! The weight of each damper among dampers that act on a common force.
 //!
-//! `(model, pose) => share per damper`. An impulse along damper i moves its bodies; its share is the
-//! power that it takes from this motion over what all dampers take:
-//! `w_i = c_i·K_ii² / Σ_j c_j·K_ij²`, `K_ij` the rate along j per impulse along i. It is 1 for a
-//! damper alone or at right angles to all others, ½ for each of two alike side by side. A damper of
-//! several directions has their mean. Taken once, at the initial pose: it weighs how dampers
-//! divide a force, not how much they resist.
+//! `(model, pose) => weight per damper`. An impulse along damper i moves its bodies; its weight is the power that it
+//! takes from this motion over the power that all dampers take: `w_i = c_i·K_ii² / Σ_j c_j·K_ij²`, `K_ij` the rate
+//! along j per impulse along i. It is 1 for a damper alone or orthogonal to all others, ½ for each of two equal
+//! parallel dampers. A damper of several directions has their mean. Computed once, at the initial pose: it affects how
+//! dampers divide a force, not how much they resist.
 
 use crate::damping::motion::{Motion, Mount, Pose};
 use crate::damping::near::Held;
@@ -15,8 +14,7 @@ use crate::laws::Laws as _;
 use crate::model::{ModelRef, SharesIn, Terms};
 use crate::real::{Real, choose};
 
-/// Writes the share of every damper; `shares` is as long as the dampers, `held` has an empty one per
-/// body.
+/// Writes the weight of every damper; `shares` is as long as the dampers, `held` has an empty entry per body.
 pub(crate) fn share<P: Geometry, T: Terms<P>>(
     pose: &Pose<'_, '_, P, T>,
     held: &mut [Held],
@@ -28,7 +26,7 @@ pub(crate) fn share<P: Geometry, T: Terms<P>>(
     let none = Share { own: zero, later: zero };
     shares.fill(none);
     each_of_laws(model, of_laws, |share| *share = none);
-    // First the powers of all dampers and of those that come later, over the damper's own.
+    // First the power of all dampers and of the later ones, over the damper's own.
     for (place, mount) in pose.mounts().enumerate() {
         let Some(ends) = pose.ends(mount) else { continue };
         for (other_place, other, others) in pose.meeting(held, ends) {
@@ -56,7 +54,7 @@ pub(crate) fn share<P: Geometry, T: Terms<P>>(
     }
     let finish = |share: &mut Share<P::Real>| {
         let Share { own: all, later } = *share;
-        // A damper without a direction or a coefficient has no motion of its own.
+        // A damper without a direction or a coefficient causes no motion.
         let known = zero.less_than(all) & (all * zero).equals(zero);
         let alone = Share::<P::Real>::ALONE;
         let (own, later) =
@@ -67,7 +65,7 @@ pub(crate) fn share<P: Geometry, T: Terms<P>>(
     each_of_laws(model, of_laws, finish);
 }
 
-/// Visits the shares of the laws' dampers.
+/// Visits the weights of the laws' dampers.
 fn each_of_laws<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     shares: &mut SharesIn<P, T>,

@@ -1,7 +1,7 @@
-//! How strong dampers are beside the masses they act on.
+//! The strength of dampers relative to the masses they act on.
 //!
-//! `(model, state) => c/μ per group and torsion spring` \[1/s\], the rate at which a damper alone
-//! would stop its two bodies. For those who choose a step: nothing of a step needs it.
+//! `(model, state) => c/μ per group and torsion spring` \[1/s\], the rate at which a damper alone would stop its two
+//! bodies. For choosing a step; a step does not use it.
 
 use crate::damping::lever::Lever;
 use crate::damping::levers::find;
@@ -12,7 +12,7 @@ use crate::pose::{Places, place_bodies};
 use crate::real::Real;
 use crate::state::State;
 
-/// Whose dampers.
+/// The owner of dampers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DampersOf {
     /// The group in this row.
@@ -23,32 +23,30 @@ pub enum DampersOf {
     Law(usize),
 }
 
-/// How strong the dampers of a group or of a torsion spring are.
+/// The strength of the dampers of a group or of a torsion spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strength {
-    /// Whose.
+    /// Their owner.
     pub of: DampersOf,
     /// \[1/s\] c/μ of the strongest.
     pub rate: f64,
-    /// \[1/s\] the largest `Σ_j c_j·K_ij²/K_ii` of a damper i: what all dampers of its own group and of
-    /// those that share a body, it itself included, take along its motion, but at most twice what crosses it,
-    /// `Σ_j min(c_i·K_ii, c_j·K_jj)`. 0 where none crosses another: dampers on one line and at right angles do
-    /// not.
+    /// \[1/s\] the largest `Σ_j c_j·K_ij²/K_ii` of a damper i: what all dampers of its group and of those that share a
+    /// body, itself included, take along its motion, but at most twice that of the dampers that cross it,
+    /// `Σ_j min(c_i·K_ii, c_j·K_jj)`. 0 where no dampers cross: collinear and orthogonal dampers do not.
     pub crossed: f64,
 }
 
-/// Dampers cross where `4·k²·(1 − k²)` is larger, `k² = K_ij²/(K_ii·K_jj)`: 0 on one line and at
-/// right angles, 1 halfway.
+/// Dampers cross where `4·k²·(1 − k²)` is larger, `k² = K_ij²/(K_ii·K_jj)`: 0 for collinear and for orthogonal dampers,
+/// 1 halfway.
 const CROSSING: f64 = 0.02;
 
-/// Visits all that has dampers at the pose of `state`, groups first.
+/// Visits all elements with dampers at the pose of `state`, groups first.
 pub fn strengths<M: ModelOwner>(model: &M, state: &State<M>, visit: impl FnMut(Strength)) {
     look(model, state, false, visit);
 }
 
-/// [`strengths`] as [`Damping::JointWise`](crate::damping::Damping::JointWise) has them: a joint's
-/// dampers are levers that do not cross one another, and those of joints between the same two bodies
-/// are the first one's.
+/// [`strengths`] for [`Damping::JointWise`](crate::damping::Damping::JointWise): a joint's dampers are modes that do
+/// not cross one another, and those of joints between the same two bodies belong to the first joint.
 pub fn strengths_of_joints<M: ModelOwner>(
     model: &M,
     state: &State<M>,

@@ -1,15 +1,14 @@
 //! Clearance: a dead band of an element's extension, continuous at its edge.
 //!
-//! `(extension, clearance c) => effective extension x`: 0 within ±c, less c beyond. A spring acts
-//! on the effective extension, its energy is that of it. A damper grows with it, as the contact
-//! does: `d·min(1, |x|/c)`, 0 at the edge and whole from twice the clearance on, so that the force
-//! is continuous whatever the speed, and what it takes is never negative.
-//! (Flores & Ambrósio 2004 review dry clearance joints, whose dampers grow likewise, after Hunt &
-//! Crossley 1975; contact here is the joint's own spring.)
+//! `(extension, clearance c) => effective extension x`: 0 within ±c, reduced by c beyond. A spring's force and energy
+//! are those of the effective extension. A damper grows with it, as the contact does: `d·min(1, |x|/c)`, 0 at the edge
+//! and complete from twice the clearance on, so that the force is continuous at any speed and dissipation is never
+//! negative. (Flores & Ambrósio 2004 review dry clearance joints, whose dampers grow likewise, after Hunt & Crossley
+//! 1975; contact here is the joint's own spring.)
 
 use crate::real::{Real, choose};
 
-/// What remains of `extension` \[m\] beyond a dead band of ±`clearance` \[m\]; without one all of it.
+/// The part of `extension` \[m\] beyond a dead band of ±`clearance` \[m\]; without a clearance all of it.
 #[inline(always)]
 pub fn beyond<R: Real>(extension: R, clearance: Option<R>) -> R {
     let Some(c) = clearance else { return extension };
@@ -21,7 +20,7 @@ pub fn beyond<R: Real>(extension: R, clearance: Option<R>) -> R {
     )
 }
 
-/// What acts of a damper \[N·s/m\] at `extension` \[m\]: without a clearance all of it.
+/// The active part of a damper \[N·s/m\] at `extension` \[m\]: without a clearance all of it.
 #[inline(always)]
 pub fn engaged<R: Real>(damping: R, extension: R, clearance: Option<R>) -> R {
     let Some(c) = clearance else { return damping };
@@ -57,7 +56,7 @@ mod tests {
         ] {
             assert_eq!(engaged(8.0, extension, Some(0.5)), damping, "{extension}");
         }
-        // A clearance that a precision rounds to 0 leaves the damper whole.
+        // A clearance that rounds to 0 in a precision leaves the damper complete.
         assert_eq!(engaged(8.0_f32, 0.0, Some(0.0)), 8.0);
     }
 }

@@ -1,7 +1,7 @@
 //! The list of laws between two points.
 //!
-//! A new law is a file beside this one that implements [`PointLaw`], a variant of [`Law`] and of
-//! [`Element`], a file of its walk in [`crate::forces`] and a field of [`crate::energy::Energy`].
+//! A new law needs a file in this folder that implements [`PointLaw`], a variant of [`Law`] and of [`Element`], a file
+//! with its loop in [`crate::forces`] and a field of [`crate::energy::Energy`].
 
 use crate::elements::point_bushing::PointBushing;
 use crate::elements::point_law::{PointLaw, Stretch, Turning};
@@ -15,12 +15,12 @@ use crate::space::Space;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Law {
-    /// Stars of TSDAs with free lengths.
+    /// Spring triples of TSDAs with free lengths.
     Tsda,
-    /// Point bushings: every star has one point of the second body, its own.
+    /// Point bushings: every triple has one point of the second body, not shared.
     PointBushing,
-    /// Stars on lines: each star's first point and its elements' direction define a line of the
-    /// first body, on which the second body's points are projected.
+    /// Points on lines: each triple's first point and its elements' direction define a line of the first body, on which
+    /// the second body's points are projected.
     PointOnLine,
     /// One revolute joint of bushings.
     Revolute,
@@ -29,9 +29,9 @@ pub enum Law {
 }
 
 impl Law {
-    /// How many rows a damped group of so many elements has among the model's dampers, in a plane or in space: one per
-    /// element, and of bushings at least as many as their dampers have levers (see [`crate::damping`]). The
-    /// coefficients beyond those of the elements are 0.
+    /// The number of rows of a damped group of `elements` elements among the model's dampers, in a plane or in space:
+    /// one per element, and for bushings at least the number of damping modes (see [`crate::damping`]). Coefficients
+    /// beyond those of the elements are 0.
     #[must_use]
     pub const fn damper_rows(self, elements: usize, planar: bool) -> usize {
         let levers = match (self, planar, elements) {
@@ -45,7 +45,7 @@ impl Law {
         if levers > elements { levers } else { elements }
     }
 
-    /// Whether a star of this law may have `arms` points of the second body.
+    /// Whether a triple of this law may have `arms` points of the second body.
     #[must_use]
     pub const fn takes_arms(self, arms: u8) -> bool {
         match self {
@@ -61,9 +61,9 @@ impl Law {
 pub enum Element<'m, S: Space> {
     /// A TSDA with a free length.
     Tsda(&'m Tsda<S::Real>),
-    /// A TSDA of no free length.
+    /// A TSDA of zero free length.
     PointBushing(&'m PointBushing<S::Real>),
-    /// A point held to a line.
+    /// A point on a line.
     PointOnLine(&'m PointOnLine<S>),
     /// A revolute joint of bushings.
     Revolute(&'m Revolute<S>),
@@ -85,25 +85,25 @@ macro_rules! of_law {
 }
 
 impl<S: Space> Element<'_, S> {
-    /// As [`PointLaw::extension`].
+    /// See [`PointLaw::extension`].
     #[inline(always)]
     pub fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
         of_law!(self, law => PointLaw::extension(*law, stretch))
     }
 
-    /// \[N/m\] its stiffness; of a revolute joint that across its axis.
+    /// \[N/m\] its stiffness; of a revolute joint the radial one.
     #[inline(always)]
     pub fn stiffness(&self) -> S::Real {
         of_law!(self, law => law.stiffness)
     }
 
-    /// As [`PointLaw::energy`].
+    /// See [`PointLaw::energy`].
     #[inline(always)]
     pub fn energy(&self, stretch: &Stretch<S::Vector>, clearance: Option<S::Real>) -> S::Real {
         of_law!(self, law => PointLaw::energy(*law, stretch, clearance))
     }
 
-    /// As [`PointLaw::tangent`].
+    /// See [`PointLaw::tangent`].
     #[inline(always)]
     pub fn tangent(
         &self,

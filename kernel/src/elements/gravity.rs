@@ -4,7 +4,7 @@
 
 use crate::space::Linear;
 
-/// The weight \[N\] of a body of `mass` \[kg\] in the field `gravity` \[m/s²\].
+/// The weight \[N\] of a body of `mass` \[kg\] under `gravity` \[m/s²\].
 #[inline(always)]
 pub fn weight<V: Linear>(mass: V::Real, gravity: V) -> V {
     gravity * mass

@@ -1,4 +1,4 @@
-//! What an input's signal does to a mechanism, and the table that may drive it.
+//! Inputs: the action of a signal on a mechanism, and its table.
 //!
 //! `scene => constants`. A signal is a force, a torque, a tension or a displacement of the ground;
 //! it is set by the caller or follows knots that are held or linear, see [`crate::schedule`].
@@ -9,7 +9,7 @@ use crate::index::BodyIndex;
 use crate::real::Real;
 use crate::space::Linear as _;
 
-/// What an input's signal does.
+/// The action of an input's signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum InputKind<P: Geometry> {
     /// A force \[N\] along a direction at a point of a body.
@@ -29,28 +29,28 @@ pub enum InputKind<P: Geometry> {
         body: BodyIndex,
         /// Unit axis.
         axis: P::Moment,
-        /// The axis' axes.
+        /// The axes in which `axis` is given.
         frame: LoadFrame,
     },
-    /// A torque \[N·m\] on B along the gradient of its turn about an axis of A, on A the opposite. Its power
-    /// is the torque times the rate of that turn, as a torsion spring's; about either body's axis alone it
-    /// would be a circulatory force (Ziegler 1953).
+    /// A torque \[N·m\] on B along the gradient of its rotation about an axis of A, on A the opposite. Its power is the
+    /// torque times the rate of that rotation, as for a torsion spring; about either body's axis alone it would be a
+    /// circulatory force (Ziegler 1953).
     JointTorque {
         /// First body.
         a: BodyIndex,
         /// Second body.
         b: BodyIndex,
-        /// Unit axis as it lies at t = 0, in A's and in B's axes.
+        /// Unit axis at t = 0, in A's and in B's axes.
         axes: [P::Moment; 2],
     },
-    /// A tension \[N\] along a TSDA beside its spring's: the actuator of the TSDA.
+    /// A tension \[N\] along a TSDA in addition to its spring's: an actuator.
     Actuator {
         /// The TSDA's group.
         group: u16,
-        /// Its number in the group.
+        /// Its index in the group.
         element: u16,
     },
-    /// A number that laws read, see [`crate::laws::Seen::signal`]: it pushes nothing by itself.
+    /// A number that laws read, see [`crate::laws::Seen::signal`]; it exerts no force itself.
     Signal,
     /// A displacement \[m\] of ground points along a direction, with its rate \[m/s\]. The points
     /// are those of the elements whose body is [`BodyIndex::anchor`] of this input.
@@ -63,7 +63,7 @@ pub enum InputKind<P: Geometry> {
 /// An input of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Input<P: Geometry> {
-    /// What its signal does.
+    /// The action of its signal.
     pub kind: InputKind<P>,
     /// \[N, N·m or m\] its value at t = 0 where no table drives it.
     pub value: P::Real,
@@ -71,13 +71,12 @@ pub struct Input<P: Geometry> {
     pub knot: u16,
     /// The number of its knots; 0 where the caller drives it.
     pub knots: u16,
-    /// \[as its value\] the least and the largest value that a caller can set: what is beyond is set to the nearer
-    /// one. Without bounds they are infinite.
+    /// \[as its value\] the smallest and the largest value; a set value is clamped to them. Infinite without bounds.
     pub range: [P::Real; 2],
 }
 
 impl<P: Geometry> Input<P> {
-    /// A value within its range.
+    /// A value clamped to its range.
     #[inline]
     #[must_use]
     pub fn bounded(&self, value: P::Real) -> P::Real {
@@ -86,7 +85,7 @@ impl<P: Geometry> Input<P> {
         P::Real::pick(value.less_than(least), least, value)
     }
 
-    /// Whether the precision holds its value and its table; `knots` are those of all inputs.
+    /// Whether its value and its table are representable in the precision; `knots` are those of all inputs.
     #[must_use]
     pub fn is_finite(&self, knots: &[Knot<P::Real>]) -> bool {
         let first = self.knot as usize;
@@ -129,7 +128,7 @@ impl<P: Geometry> Input<P> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Knot<R> {
-    /// \[s\] from when it holds.
+    /// \[s\] the time from which it applies.
     pub time: f64,
     /// \[N, N·m or m\] the value at its time.
     pub value: R,
@@ -148,7 +147,7 @@ impl<R: Real> Knot<R> {
         Some(Self { time, value: R::from_f64(value), slope: R::from_f64(slope) })
     }
 
-    /// Whether the precision holds every value from t = 0 to the next knot, and what makes it up.
+    /// Whether every value from t = 0 to the next knot, and every part of it, is representable in the precision.
     #[must_use]
     pub fn is_finite(&self, next: Option<&Self>) -> bool {
         let slope = self.slope.to_f64();

@@ -1,8 +1,8 @@
 //! A force and a torque on one body, constant over a window of time \[from, until).
 //!
-//! `(load, frame) => (force, torque)` in world axes. [`crate::schedule`] makes the window one of
-//! whole steps. A force in world axes has the potential `−F·x` while it acts, which
-//! [`crate::energy`] keeps apart; a force in body axes and a torque have none.
+//! `(load, frame) => (force, torque)` in world axes. [`crate::schedule`] rounds the window to whole steps. A force in
+//! world axes has the potential `−F·x` while it acts, which [`crate::energy`] reports separately; a force in body axes
+//! and a torque have none.
 
 use crate::index::BodyIndex;
 use crate::real::Real as _;
@@ -15,7 +15,7 @@ pub enum LoadFrame {
     /// World axes.
     #[default]
     World,
-    /// Body axes: the load turns with its body.
+    /// Body axes: the load rotates with its body.
     Body,
 }
 
@@ -32,7 +32,7 @@ pub struct Load<S: Space> {
     pub torque: S::Moment,
     /// \[s\] start of the window.
     pub from: f64,
-    /// \[s\] end of the window, exclusive; infinite where it never ends.
+    /// \[s\] end of the window, exclusive; infinite for a permanent load.
     pub until: f64,
 }
 

@@ -1,7 +1,7 @@
-//! The element laws, one per file: the law, its sign, its energy, its share of the frequency bound.
+//! The element laws, one per file: the law, its sign, its energy, its part of the frequency bound.
 //!
-//! A law between two points sees displacements, velocities and arms. Loads, inputs and torsion springs
-//! name their bodies. Placing points, grouping and summing is the work of [`crate::forces`].
+//! A law between two points uses displacements, velocities and lever arms. Loads, inputs and torsion springs refer to
+//! bodies. [`crate::forces`] computes points, groups them and sums the forces.
 
 pub mod clearance;
 pub mod element;

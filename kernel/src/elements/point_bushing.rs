@@ -1,9 +1,8 @@
 //! Point bushing: a TSDA of zero free length, isotropic, without a root or a division.
 //!
-//! `(d, v_rel) => force on A = k·d + c·v_rel`; the force on B is the opposite.
-//! Energy `½·k·d·d`. Smooth where the points coincide. The damper's force need not lie along d:
-//! while the points are apart the pair has a torque `d × c·v_rel`, so a damped bushing keeps
-//! linear momentum but angular momentum only as far as d vanishes.
+//! `(d, v_rel) => force on A = k·d + c·v_rel`; the force on B is the opposite. Energy `½·k·d·d`. Smooth where the
+//! points coincide. The damper's force need not be along d: while the points are apart the pair has a torque
+//! `d × c·v_rel`, so a damped bushing conserves linear momentum, but angular momentum only up to d.
 
 use crate::elements::point_law::{PointLaw, Stretch, Turning};
 use crate::real::Real;
@@ -34,7 +33,7 @@ impl<R: Real> PointBushing<R> {
         d * self.stiffness
     }
 
-    /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
+    /// Force on A \[N\] including the damper, `damping` in N·s/m.
     #[inline(always)]
     pub fn damped_force<V: Linear<Real = R>>(&self, damping: R, d: V, v_rel: V) -> V {
         d * self.stiffness + v_rel * damping
@@ -62,7 +61,7 @@ impl<V: Vector> PointLaw<V> for PointBushing<V::Real> {
         (V::axes(), V::DIMENSION)
     }
 
-    /// k in every direction, and the force on a turning arm.
+    /// k in every direction, and the effect of the force on a rotating lever arm.
     fn tangent(&self, stretch: &Stretch<V>, _: V, add: &mut impl FnMut(V::Real, V)) -> Turning<V> {
         for u in V::axes().into_iter().take(V::DIMENSION) {
             add(self.stiffness, u);

@@ -1,8 +1,7 @@
-//! What a law between two points owns: its energy, the directions in which its damper acts and its
-//! share of the frequency bound.
+//! The law between two points: its energy, the directions of its damper and its part of the frequency bound.
 //!
-//! A law acts along the way from a point of A to a point of B; [`crate::forces`] holds the walk that
-//! places its points.
+//! A law acts along the displacement from a point of A to a point of B; [`crate::forces`] contains the loop that
+//! computes its points.
 
 use crate::real::Real as _;
 use crate::space::Vector;
@@ -10,18 +9,18 @@ use crate::space::Vector;
 /// An element at a pose, world axes.
 #[derive(Clone, Copy, Debug)]
 pub struct Stretch<V: Vector> {
-    /// \[m\] from its first point to its second; on a line from the foot to the point.
+    /// \[m\] from its first point to its second; for a line from the foot to the point.
     pub displacement: V,
-    /// \[1\] the direction of its line or axis; 0 where the law knows none.
+    /// \[1\] the direction of its line or axis; 0 where the law has none.
     pub direction: V,
-    /// \[1\] how much stiffer it is along its axis than across; of revolute joints alone.
+    /// \[1\] excess of the axial over the radial stiffness; revolute joints only.
     pub ratio: V::Real,
-    /// \[m\] how far the axes of a joint are from how it holds them, at their lever.
+    /// \[m\] the axis error of a joint, at its lever arm.
     pub lean: V::Real,
 }
 
 impl<V: Vector> Stretch<V> {
-    /// Of a law that knows neither line nor axis.
+    /// For a law without a line or an axis.
     #[inline(always)]
     pub fn of(displacement: V) -> Self {
         let zero = V::Real::ZERO;
@@ -29,34 +28,34 @@ impl<V: Vector> Stretch<V> {
     }
 }
 
-/// What energies, sweeps, read-outs and frequencies ask of a law.
+/// What energies, damper passes, sensors and frequencies need from a law.
 pub trait PointLaw<V: Vector> {
-    /// \[m\] how far the element is from its free length.
+    /// \[m\] the difference to the element's free length.
     fn extension(&self, stretch: &Stretch<V>) -> V::Real;
 
     /// \[J\] stored energy, beyond a clearance \[m\] if there is one.
     fn energy(&self, stretch: &Stretch<V>, clearance: Option<V::Real>) -> V::Real;
 
-    /// The directions in which its damper acts, and how many of them there are.
+    /// The directions in which its damper acts, and their number.
     fn damped(stretch: &Stretch<V>) -> ([V; 3], usize);
 
-    /// Its tangent as springs, `add(κ \[N/m\], direction)`, which act on a body at the end of `arm`
-    /// \[m\], and what its force does to a turn of the body.
+    /// Its tangent as springs, `add(κ \[N/m\], direction)`, that act on a body at the end of `arm` \[m\], and the
+    /// effect of its force on a rotation of the body.
     fn tangent(&self, stretch: &Stretch<V>, arm: V, add: &mut impl FnMut(V::Real, V))
     -> Turning<V>;
 }
 
-/// What the force of an element does to a turn of a body.
+/// The effect of an element's force on a rotation of a body.
 #[derive(Clone, Copy, Debug)]
 pub struct Turning<V: Vector> {
     /// \[N\] the part of the force on A, world axes, that acts on a point of the body.
     pub force: V,
-    /// \[N·m/rad\] the stiffness of all else, about any axis at most.
+    /// \[N·m/rad\] an upper bound of the remaining stiffness, about any axis.
     pub rest: V::Real,
 }
 
 impl<V: Vector> Turning<V> {
-    /// A force on a point of the body alone.
+    /// A force on a point of the body only.
     pub(crate) fn of_force(force: V) -> Self {
         Self { force, rest: V::Real::ZERO }
     }
@@ -67,8 +66,8 @@ impl<V: Vector> Turning<V> {
     }
 }
 
-/// The tangent that a tension \[N\] adds to whatever it pulls along `displacement`: |T|/L along both
-/// normals, and what its force does to a turn.
+/// The geometric stiffness of a tension \[N\] along `displacement`: |T|/L along both normals, and the effect of its
+/// force on a rotation.
 #[inline(always)]
 pub(crate) fn taut<V: Vector>(
     tension: V::Real,

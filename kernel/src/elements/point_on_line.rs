@@ -1,13 +1,11 @@
-//! Point on line: a point of B held to a line of A (Franco & Degani 2026, section 2.4.3).
+//! Point on line: a point of B constrained by a spring to a line of A (Franco & Degani 2026, section 2.4.3).
 //!
-//! `(d, n, v_rel) => (force on A, slide)`, `d` from a point of the line to the point of B, n the
-//! line's unit direction. The slide is `s = d·n`, the foot point lies s along the line, and
-//! `e = d − s·n` is the deflection, `ė` the part of `v_rel` normal to n, `v_rel` between the
-//! material points of both bodies at the foot and at the point.
-//! Force on A at the foot `k·(|e| − L0)·e/|e| + c·ė`, on B at the point the opposite; with
-//! `L0 = 0` simply `k·e + c·ė`, smooth on the line. Energy `½·k·(|e| − L0)²`.
-//! A clearance changes `|e| − L0` and c, see [`crate::elements::clearance`].
-//! A damper whose `ė` is not along e keeps angular momentum only as far as e vanishes.
+//! `(d, n, v_rel) => (force on A, slide)`, `d` from a point of the line to the point of B, n the line's unit direction.
+//! The slide is `s = d·n`, the foot point is s along the line, and `e = d − s·n` is the deflection, `ė` the part of
+//! `v_rel` normal to n, `v_rel` between the material points of both bodies at the foot and at the point. Force on A at
+//! the foot `k·(|e| − L0)·e/|e| + c·ė`, on B at the point the opposite; with `L0 = 0` simply `k·e + c·ė`, smooth on the
+//! line. Energy `½·k·(|e| − L0)²`. A clearance changes `|e| − L0` and c, see [`crate::elements::clearance`]. A damper
+//! whose `ė` is not along e conserves angular momentum only up to e.
 
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch, Turning};
@@ -79,7 +77,7 @@ impl<S: Space> PointOnLine<S> {
         })
     }
 
-    /// Force on A \[N\] with the damper's share: `damping` in N·s/m, `rate` is `ė`.
+    /// Force on A \[N\] including the damper: `damping` in N·s/m, `rate` is `ė`.
     #[inline(always)]
     pub fn damped_force(
         &self,
@@ -113,9 +111,8 @@ impl<S: Space> PointLaw<S::Vector> for PointOnLine<S> {
         ([n, m, S::Vector::ZERO], S::Vector::DIMENSION - 1)
     }
 
-    /// k along e and, where the law is isotropic, across it; otherwise the force over |e| there. A
-    /// loaded line that turns trades the turn against the slide: both get a spring, with the arm
-    /// as the length that weighs one against the other.
+    /// k along e and, where the law is isotropic, across it; otherwise the force over |e| there. On a loaded line that
+    /// rotates, rotation and slide are coupled: both get a spring, with the lever arm as the weighting length.
     fn tangent(
         &self,
         stretch: &Stretch<S::Vector>,

@@ -1,11 +1,10 @@
-//! A revolute joint of bushings: a point of either body in one place, and an axis of either that lie in line.
+//! A revolute joint of bushings: a coincident point and an aligned axis of each body.
 //!
 //! `(d, l, l', v_rel, ω_rel) => force on A = k·w(d) + c·w(v_rel), torque on A = k·l×l' + c·l×(ω_rel×l)`,
-//! `w(x) = x + α·(l·x)·l`; on B the opposite. l and l' are the axes of A and B, as long as their lever;
-//! the force acts on both bodies at the point of B, `v_rel` is between their material points there.
-//! Energy `½·k·(d·w(d) + |l' − l|²)`: with α = 0 that of two point bushings of k/2 at the ends of both
-//! axes, at less cost. Smooth everywhere, without a root or a division; linear and angular momentum are
-//! kept, damped or not.
+//! `w(x) = x + α·(l·x)·l`; on B the opposite. l and l' are the axes of A and B with the length of their lever arm; the
+//! force acts on both bodies at the point of B, `v_rel` is between their material points there. Energy
+//! `½·k·(d·w(d) + |l' − l|²)`: with α = 0 that of two point bushings of k/2 at the ends of both axes, at lower cost.
+//! Smooth everywhere, without a root or a division; linear and angular momentum are conserved, damped or not.
 
 use crate::elements::point_law::{PointLaw, Stretch, Turning};
 use crate::real::Real;
@@ -14,11 +13,11 @@ use crate::space::{Linear as _, Moment as _, Space, Vector};
 /// The constants of a revolute joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Revolute<S: Space> {
-    /// \[N/m\] stiffness across the axis, ≥ 0.
+    /// \[N/m\] radial stiffness, ≥ 0.
     pub stiffness: S::Real,
-    /// \[1/m²\] α: along the axis the stiffness is 1 + α·l² times as much, ≥ 0.
+    /// \[1/m²\] α: the axial stiffness is 1 + α·l² times the radial one, ≥ 0.
     pub along: S::Real,
-    /// \[m\] axis of each body in its own axes, as long as its lever.
+    /// \[m\] axis of each body in its own axes, with the length of its lever arm.
     pub levers: [S::Vector; 2],
 }
 
@@ -44,13 +43,13 @@ impl<S: Space> Revolute<S> {
         Revolute::from_f64(self.stiffness.to_f64(), self.along.to_f64(), levers)
     }
 
-    /// Force on A \[N\] without damping, `lever` that of A in the world.
+    /// Force on A \[N\] without damping, `lever` that of A in world axes.
     #[inline(always)]
     pub fn force(&self, d: S::Vector, lever: S::Vector) -> S::Vector {
         weighed(d, lever, self.along) * self.stiffness
     }
 
-    /// Force on A \[N\] with the damper's share, `damping` in N·s/m across the axis.
+    /// Force on A \[N\] including the damper, `damping` in N·s/m, radial.
     #[inline(always)]
     pub fn damped_force(
         &self,
@@ -62,26 +61,26 @@ impl<S: Space> Revolute<S> {
         weighed(d * self.stiffness + v_rel * damping, lever, self.along)
     }
 
-    /// Torque on A \[N·m\] without damping, levers in the world.
+    /// Torque on A \[N·m\] without damping, levers in world axes.
     #[inline(always)]
     pub fn torque(&self, [a, b]: [S::Vector; 2]) -> S::Moment {
         a.cross(b) * self.stiffness
     }
 
-    /// Torque on A \[N·m\] of the damper: `damping` in N·s/m, `spin` of B beside A \[rad/s\].
+    /// Torque on A \[N·m\] of the damper: `damping` in N·s/m, `spin` of B relative to A \[rad/s\].
     #[inline(always)]
     pub fn damping_torque(&self, damping: S::Real, spin: S::Moment, lever: S::Vector) -> S::Moment {
         lever.cross(spin.cross(lever)) * damping
     }
 
-    /// \[m\] its lever.
+    /// \[m\] its lever arm.
     fn lever(&self) -> S::Real {
         self.levers[0].dot(self.levers[0]).sqrt()
     }
 }
 
 impl<S: Space> PointLaw<S::Vector> for Revolute<S> {
-    /// \[m\] of point and axes together, `√(d·d + |l' − l|²)`.
+    /// \[m\] of the point and the axes together, `√(d·d + |l' − l|²)`.
     #[inline]
     fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
         let (d, lean) = (stretch.displacement, stretch.lean);
@@ -97,18 +96,18 @@ impl<S: Space> PointLaw<S::Vector> for Revolute<S> {
         S::Real::HALF * self.stiffness * squares
     }
 
-    /// Along the axis, as long as makes it as strong there as it is, and along its normals; those that
-    /// hold the axis only turn and are visited beside these.
+    /// Along the axis, with a length that gives the axial strength, and along its normals; the dampers that align the
+    /// axis are moments and are visited separately.
     #[inline(always)]
     fn damped(stretch: &Stretch<S::Vector>) -> ([S::Vector; 3], usize) {
         let [n, m] = stretch.direction.normals();
         ([stretch.direction * stretch.ratio.sqrt(), n, m], S::Vector::DIMENSION)
     }
 
-    /// k across the axis and (1 + α·l²)·k along it, the force on a turning arm, and what is stiffer along
-    /// the axis trades a turn of it against a shift, as a line does: both get a spring, with the arm as
-    /// the length that weighs one against the other. What holds the axes is added beside this, for it
-    /// only turns; axes that are apart add their torque.
+    /// k radially and (1 + α·l²)·k axially, and the effect of the force on a rotating lever arm. The larger axial
+    /// stiffness couples a rotation of the axis with a shift, as for a line: both get a spring, with the lever arm as
+    /// the weighting length. The stiffness that aligns the axes is added separately as a moment; misaligned axes add
+    /// their torque.
     fn tangent(
         &self,
         stretch: &Stretch<S::Vector>,
@@ -134,7 +133,7 @@ mod tests {
     use super::*;
     use crate::vector::{Quaternion, Vec3};
 
-    /// Lever 0.5 m, four times as stiff along the axis.
+    /// Lever arm 0.5 m, axially four times as stiff.
     fn revolute() -> Revolute<f64> {
         Revolute::from_f64(40.0, 12.0, [[0.0, 0.3, 0.4], [0.0, 0.3, 0.4]])
     }
@@ -183,7 +182,7 @@ mod tests {
         let sum = directions[..count].iter().fold(Vec3::ZERO, |sum, u| sum + *u * (7.0 * u.dot(v)));
         let gap = sum - revolute.damped_force(7.0, Vec3::ZERO, v, lever);
         assert!(gap.dot(gap) < 1e-24, "{gap:?}");
-        // A turn about the axis is free.
+        // Rotation about the axis is free.
         assert_eq!(revolute.damping_torque(7.0, lever, lever), Vec3::ZERO);
     }
 }

@@ -1,20 +1,20 @@
-//! What a damper bears of a force that several dampers bear together.
+//! The weight of a damper among dampers that act on a common force.
 //!
-//! Weighed by [`crate::damping`], kept beside each damper.
+//! Computed by [`crate::damping`], stored with each damper.
 
 use crate::real::Real;
 
-/// The share of one damper in what it bears together with others.
+/// The weight of one damper among those that act on a common force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Share<R> {
-    /// \[1\] its own, above 0, 1 at most.
+    /// \[1\] its own, above 0, at most 1.
     pub own: R,
     /// \[1\] of all dampers that come after it in ascending order.
     pub later: R,
 }
 
 impl<R: Real> Share<R> {
-    /// Of a damper that no other touches.
+    /// A damper that shares its force with no other.
     pub const ALONE: Self = Self { own: R::ONE, later: R::ZERO };
 }

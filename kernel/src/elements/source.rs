@@ -1,35 +1,34 @@
-//! What an input follows where it is no plain table over time: a sine, a table that repeats, a table
-//! over what a sensor reads.
+//! Sources that drive an input other than a plain table over time: a sine, a periodic table, a table over a sensor.
 //!
-//! `scene => constants`; [`crate::sources`] makes signals of them. A model without sources has neither
-//! data nor code of them.
+//! `scene => constants`; [`crate::sources`] computes their signals. A model without sources contains neither data nor
+//! code for them.
 
 use crate::elements::input::Knot;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
 use crate::real::Real;
 
-/// A source of a model: an input and the law that it follows. The input has no knots of its own.
+/// A source of a model: an input and its law. The input has no knots of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Source<P: Geometry> {
     /// The input.
     pub input: InputIndex,
     /// Its first knot among the model's knots.
     pub knot: u16,
-    /// The number of its knots; 0 of a sine.
+    /// The number of its knots; 0 for a sine.
     pub knots: u16,
-    /// What the input follows.
+    /// The law of the input.
     pub law: SourceLaw<P>,
 }
 
-/// What an input follows.
+/// The law of a source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SourceLaw<P: Geometry> {
     /// `offset + amplitude·sin(2π·(t/period + phase))`.
     Sine {
         /// \[s\] > 0.
         period: f64,
-        /// \[1\] turns at t = 0.
+        /// \[1\] revolutions at t = 0.
         phase: f64,
         /// \[N, N·m or m\].
         amplitude: P::Real,
@@ -38,35 +37,34 @@ pub enum SourceLaw<P: Geometry> {
         /// \[N, N·m or m\].
         offset: P::Real,
     },
-    /// Its knots, repeated before and after. The first begins the period; the slope of the last leads
-    /// to its end.
+    /// Its knots, repeated before and after. The first begins the period; the slope of the last applies until its end.
     Periodic {
         /// \[s\] > 0.
         period: f64,
     },
-    /// Its knots over what a sensor reads at the start of a step, held over the step: their times are
-    /// values of `weights·reading + offset`.
+    /// Its knots over a sensor's value at the start of a step, held over the step: their times are values of
+    /// `weights·reading + offset`.
     Over {
         /// The sensor.
         sensor: Sensor<P>,
-        /// Of a vector its direction; a number counts with the first.
+        /// The direction for a vector; a scalar uses the first weight.
         weights: [P::Real; 3],
         /// In the unit of the reading.
         offset: P::Real,
     },
 }
 
-/// A sensor of poses and velocities alone: what it reads depends on no force and no input.
+/// A sensor of poses and velocities only: its value depends on no force and no input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sensor<P: Geometry> {
-    /// \[rad\] the twist of a torsion spring, unwrapped.
+    /// \[rad\] the torsion angle of a torsion spring, unwrapped.
     Angle {
         /// Its index among the torsion springs.
         spring: u16,
-        /// \[rad\] what is shown at a twist of 0.
+        /// \[rad\] the value at a torsion angle of 0.
         offset: P::Real,
     },
-    /// \[rad/s\] the rate of that twist.
+    /// \[rad/s\] the rate of that torsion angle.
     Rate {
         /// The spring's index among the torsion springs.
         spring: u16,
@@ -125,7 +123,7 @@ impl<P: Geometry> Source<P> {
         all.get(first..first + self.knots as usize).unwrap_or(&[])
     }
 
-    /// Whether the precision holds all that it is made of and all that it comes to.
+    /// Whether its constants and all of its values are representable in the precision.
     #[must_use]
     pub fn is_finite(&self, knots: &[Knot<P::Real>]) -> bool {
         let knots = self.knots_of(knots);
@@ -142,8 +140,8 @@ impl<P: Geometry> Source<P> {
         law && knots.iter().enumerate().all(|(i, knot)| knot.is_finite(next(i)))
     }
 
-    /// The largest magnitude of its value and of its rate; a rate where it jumps is not counted, nor is
-    /// that of a table over a sensor.
+    /// The largest magnitude of its value and of its rate; the rate of a jump and that of a table over a sensor are
+    /// excluded.
     #[must_use]
     pub fn most(&self, knots: &[Knot<P::Real>]) -> [f64; 2] {
         if let SourceLaw::Sine { amplitude, rate, offset, .. } = self.law {

@@ -1,15 +1,14 @@
 //! Torsion spring about an axis of its first body, with preload and damping.
 //!
-//! `(relative rotation, turn count) => twist θ, gradient g`; energy `½·k·θ² − preload·θ`;
-//! torque on B `−U′(θ)·g − c·(ω_rel·g)·g` in A's axes, on A the opposite.
+//! `(relative rotation, revolution count) => torsion angle θ, gradient g`; energy `½·k·θ² − preload·θ`; torque on B
+//! `−U′(θ)·g − c·(ω_rel·g)·g` in A's axes, on A the opposite.
 //!
-//! With the rotation (w, v) of B in A since t = 0 and the axis n: `θ = 2·atan2(v·n, w)`, the twist
-//! of the swing–twist decomposition; `ω_rel·g = θ̇`, hence
-//! `g = (w²·n + w·v×n + (v·n)·v)/(w² + (v·n)²)`, which is n while B turns about n.
+//! With the rotation (w, v) of B in A since t = 0 and the axis n: `θ = 2·atan2(v·n, w)`, the angle of the swing–twist
+//! decomposition; `ω_rel·g = θ̇`, hence `g = (w²·n + w·v×n + (v·n)·v)/(w² + (v·n)²)`, which is n while B rotates about
+//! n.
 //!
-//! The twist is unwrapped by an integer per spring: with m half windings, `θ = 2π·m + 2·atan2(σs,
-//! σw)`, `σ = (−1)^m`. The branch cut lies half a winding away from where m is updated, so no
-//! stage of a step ever meets it.
+//! The angle is unwrapped by an integer per spring: with m half revolutions, `θ = 2π·m + 2·atan2(σs, σw)`,
+//! `σ = (−1)^m`. The branch cut is half a revolution away from where m is updated, so no stage of a step meets it.
 
 use crate::arctangent::atan2;
 use crate::index::{BodyIndex, DamperIndex};
@@ -21,7 +20,7 @@ use crate::space::{Linear, Space, Turn as _};
 pub struct TorsionSpring<S: Space> {
     /// First body; the axis is fixed in it.
     pub a: BodyIndex,
-    /// Second body; its twist is measured.
+    /// Second body; its torsion angle is measured.
     pub b: BodyIndex,
     /// \[1\] unit axis in A's axes.
     pub axis: S::Moment,
@@ -35,21 +34,21 @@ pub struct TorsionSpring<S: Space> {
     pub damper: DamperIndex,
 }
 
-/// A twist and its gradient.
+/// A torsion angle and its gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist<S: Space> {
-    /// \[rad\] unwrapped twist θ of B in A since t = 0.
+    /// \[rad\] unwrapped torsion angle θ of B in A since t = 0.
     pub angle: S::Real,
-    /// \[1\] gradient g of the twist with respect to a rotation of B, A's axes.
+    /// \[1\] gradient g of the angle with respect to a rotation of B, A's axes.
     pub gradient: S::Moment,
 }
 
-/// The least `w² + (v·n)²` at which a twist is defined: B has then turned by almost half a turn
-/// about an axis normal to n, and the twist's gradient has grown to a thousand.
+/// The smallest `w² + (v·n)²` at which a torsion angle is defined: B is then rotated by almost half a revolution about
+/// an axis normal to n, and the length of the gradient is about a thousand.
 pub const LEAST_TWIST_NORM: f64 = 1e-6;
 
-/// \[1\] [`Twist::gradient`] from the unit axis as A and as B carry it, in any axes:
-/// `(n + m)/(1 + n·m)`. Where it is undefined its length stays at what it has grown to before.
+/// \[1\] [`Twist::gradient`] from the unit axis in A and in B, in any common axes: `(n + m)/(1 + n·m)`. Where it is
+/// undefined its length is limited.
 #[inline(always)]
 pub(crate) fn gradient_between<M: Linear>(of_a: M, of_b: M) -> M {
     let least = M::Real::from_f64(2.0 * LEAST_TWIST_NORM);
@@ -58,7 +57,7 @@ pub(crate) fn gradient_between<M: Linear>(of_a: M, of_b: M) -> M {
     (of_a + of_b) * (M::Real::ONE / norm)
 }
 
-/// How B has turned in A since t = 0.
+/// The rotation of B in A since t = 0.
 #[derive(Clone, Copy, Debug)]
 pub struct SinceStart<S: Space> {
     turn: S::Turn,
@@ -71,14 +70,13 @@ pub struct SinceStart<S: Space> {
 }
 
 impl<S: Space> SinceStart<S> {
-    /// (w, v·n) with the sign that belongs to the turn count.
+    /// (w, v·n) with the sign of the revolution count.
     #[inline(always)]
     fn wound(&self, turns: <S::Real as Real>::Count) -> (S::Real, S::Real) {
         choose!(S::Real, S::Real::is_odd(turns), (-self.w, -self.s), (self.w, self.s))
     }
 
-    /// The turn count brought to the half winding nearest the pose, which a step does near its
-    /// boundary.
+    /// The revolution count updated to the half revolution nearest to the pose, which a step does near its boundary.
     #[inline(always)]
     #[must_use]
     pub fn settled(&self, turns: <S::Real as Real>::Count) -> <S::Real as Real>::Count {
@@ -87,7 +85,7 @@ impl<S: Space> SinceStart<S> {
         S::Real::recount(turns, w.less_than(zero), zero.less_than(s))
     }
 
-    /// \[1\] The gradient of the twist about `axis` with respect to a rotation of B, A's axes.
+    /// \[1\] The gradient of the torsion angle about `axis` with respect to a rotation of B, A's axes.
     #[inline(always)]
     #[must_use]
     pub fn gradient(&self, axis: S::Moment) -> S::Moment {
@@ -109,19 +107,19 @@ impl<S: Space> TorsionSpring<S> {
         }
     }
 
-    /// The rotation since t = 0 for B's orientation `relative` in A's axes, or `None` where its twist
-    /// is undefined.
+    /// The rotation since t = 0 for B's orientation `relative` in A's axes, or `None` where its torsion angle is
+    /// undefined.
     #[inline(always)]
     pub fn since_start(&self, relative: S::Turn) -> Option<SinceStart<S>> {
         let turn = relative.product(self.reference);
         let (w, s) = turn.about(self.axis);
         let norm = w * w + s * s;
-        // Written so that NaN counts as undefined, too.
+        // Written so that NaN is undefined, too.
         let norm = norm.only_where(S::Real::from_f64(LEAST_TWIST_NORM).at_most(norm))?;
         Some(SinceStart { turn, w, s, norm })
     }
 
-    /// The twist of a rotation at the turn count `turns`.
+    /// The torsion angle of a rotation with the revolution count `turns`.
     #[inline(always)]
     pub fn twist(&self, since: &SinceStart<S>, turns: <S::Real as Real>::Count) -> Twist<S> {
         let (w, s) = since.wound(turns);
@@ -142,16 +140,15 @@ impl<S: Space> TorsionSpring<S> {
         twist.gradient * (self.preload - self.stiffness * twist.angle)
     }
 
-    /// Torque on B \[N·m\] in A's axes with the damper's share; `rate` is `ω_B − ω_A` in A's axes.
+    /// Torque on B \[N·m\] in A's axes including the damper; `rate` is `ω_B − ω_A` in A's axes.
     #[inline(always)]
     pub fn damped_torque(&self, damping: S::Real, twist: &Twist<S>, rate: S::Moment) -> S::Moment {
         let spring = self.preload - self.stiffness * twist.angle;
         twist.gradient * (spring - damping * rate.dot(twist.gradient))
     }
 
-    /// \[N·m\] what its torque does to a turn of either body, in any direction at most, `½·|τ|·|g|²`
-    /// with the gradient g in any axes: its share of the frequency bound beside the stiffness
-    /// along g.
+    /// \[N·m\] an upper bound of the effect of its torque on a rotation of either body, in any direction, `½·|τ|·|g|²`
+    /// with the gradient g in any axes: its part of the frequency bound in addition to the stiffness along g.
     #[inline]
     pub fn turning(&self, angle: S::Real, gradient: S::Moment) -> S::Real {
         let torque = (self.preload - self.stiffness * angle).abs();
@@ -194,7 +191,7 @@ mod tests {
             let mut turns = 0;
             for i in 0..4_000 {
                 let angle = direction * 0.01 * f64::from(i);
-                // Between two settled poses a stage may look well ahead without meeting the cut.
+                // Between two updates of the count a stage may be well ahead without meeting the cut.
                 let stage = turned([0.0, 0.0, 1.0], angle + direction * 2.5);
                 let looked = spring.twist(&spring.since_start(stage).unwrap(), turns);
                 assert!((looked.angle - angle - direction * 2.5).abs() < 1e-12);

@@ -3,8 +3,8 @@
 //! `(d, v_rel) => force on A`, with `d = x_b − x_a` and `v_rel` the rate of `d`:
 //! tension `k·(L − L0) + c·(d·v_rel)/L` along `d/L`; the force on B is the opposite.
 //! Energy `½·k·(L − L0)²`; a clearance changes `L − L0` and c, see [`crate::elements::clearance`].
-//! Where the points coincide the direction is undefined and the force 0: of two that are closer than
-//! 1e-18 m (in double precision 1e-100 m) it falls to 0 with their distance, of others nothing changes.
+//! Where the points coincide the direction is undefined and the force 0: below a distance of 1e-18 m (in double
+//! precision 1e-100 m) it falls to 0 with the distance; above it is unchanged.
 
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::point_law::{PointLaw, Stretch, Turning, taut};
@@ -12,9 +12,8 @@ use crate::reach::{AtRest, Reach};
 use crate::real::{Constant, Real};
 use crate::space::{Linear, Vector};
 
-/// \[m²\] What a square of a length never falls below, so that none need be asked whether it is 0. It
-/// changes no bit of a square that is 2^54 (f32: 2^25) times as large, and is as small as leaves forces
-/// of 1e20 N finite.
+/// \[m²\] Lower limit added to squared lengths, which avoids a test for 0. It changes no bit of a square that is 2^54
+/// (f32: 2^25) times as large, and is the smallest that keeps forces of 1e20 N finite.
 const LEAST_SQUARE: Constant = Constant { double: 1e-200, single: 1e-36 };
 
 /// The length of `d` \[m\].
@@ -50,7 +49,7 @@ impl<R: Real> Tsda<R> {
         self.pull(&Reach { way: d, more: None }, clearance)
     }
 
-    /// [`Self::force`] at a reach.
+    /// [`Self::force`] for a given displacement with its length data.
     #[inline(always)]
     pub(crate) fn pull<V: Linear<Real = R>>(&self, reach: &Reach<V>, clearance: Option<R>) -> V {
         let d = reach.way;
@@ -60,18 +59,18 @@ impl<R: Real> Tsda<R> {
         d * (tension * inverse)
     }
 
-    /// The lengths of several \[m\].
+    /// Several lengths \[m\].
     #[inline(always)]
     fn lengths<V: Linear<Real = R>, const N: usize>(reaches: &[Reach<V>; N]) -> [R; N] {
         let mut squares = [R::ZERO; N];
         for (square, Reach { way, .. }) in squares.iter_mut().zip(reaches) {
             *square = way.dot(*way) + R::constant(LEAST_SQUARE);
         }
-        // A joint of the plane has little else at hand.
+        // A planar joint has little else to compute meanwhile.
         if V::DIMENSION == 2 { R::roots_apart(squares) } else { R::roots(squares) }
     }
 
-    /// [`Self::pull`] of several without clearance.
+    /// [`Self::pull`] for several springs without clearance.
     #[inline(always)]
     pub(crate) fn pulls<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
@@ -80,7 +79,7 @@ impl<R: Real> Tsda<R> {
         let lengths = Self::lengths(reaches);
         let mut pulls = [V::ZERO; N];
         for i in 0..N {
-            // One division either way.
+            // One division in either case.
             let (beyond, divisor) = match reaches[i].more {
                 None => (lengths[i] - springs[i].free_length, lengths[i]),
                 Some(more) => (more, lengths[i] * (lengths[i] + springs[i].free_length)),
@@ -90,10 +89,10 @@ impl<R: Real> Tsda<R> {
         pulls
     }
 
-    /// What the springs of a star pull its centre by, without clearance. The centre is `off` \[m\] from where it rests,
-    /// by less than a quarter of any of their ways at rest; `square` \[m²\] is `off` times itself. With w a way at rest
-    /// and o what the centre is off, the square of the way w − o is that of w and o·o − 2·o·w more, and so is its
-    /// difference to the square of the free length: it has the digits of o.
+    /// The force of the springs of a triple on its centre, without clearance. The centre is `off` \[m\] from its
+    /// reference position, less than a quarter of any reference displacement; `square` \[m²\] is `off·off`. With w a
+    /// reference displacement and o the offset, the squared length of w − o differs from that of w by o·o − 2·o·w, and
+    /// so does its difference to the squared free length: the result has the precision of o.
     #[inline(always)]
     pub(crate) fn pull_near_rest<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
@@ -107,7 +106,7 @@ impl<R: Real> Tsda<R> {
             (*length, *more) = (rest.square + change, rest.more + change);
         }
         let lengths = R::roots(squares);
-        // From the first term on.
+        // Starts with the first term.
         let (mut pull, mut sum) = (V::ZERO, R::ZERO);
         for i in 0..N {
             // (L − L0)/L = (L² − L0²)/(L² + L·L0).
@@ -119,7 +118,7 @@ impl<R: Real> Tsda<R> {
         pull - off * sum
     }
 
-    /// \[m\] how much longer than its free length a reach of this `length` is.
+    /// \[m\] the length minus the free length.
     #[inline(always)]
     fn extended<V: Linear<Real = R>>(&self, length: R, reach: &Reach<V>) -> R {
         match reach.more {
@@ -129,7 +128,7 @@ impl<R: Real> Tsda<R> {
         }
     }
 
-    /// [`Self::damped_pull`] of several without clearance.
+    /// [`Self::damped_pull`] for several springs without clearance.
     #[inline(always)]
     pub(crate) fn damped_pulls<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
@@ -148,7 +147,7 @@ impl<R: Real> Tsda<R> {
         pulls
     }
 
-    /// Force on A \[N\] with the damper's share, `damping` in N·s/m.
+    /// Force on A \[N\] including the damper, `damping` in N·s/m.
     #[inline(always)]
     pub fn damped_force<V: Linear<Real = R>>(
         &self,
@@ -160,7 +159,7 @@ impl<R: Real> Tsda<R> {
         self.damped_pull(damping, &Reach { way: d, more: None }, v_rel, clearance)
     }
 
-    /// [`Self::damped_force`] at a reach.
+    /// [`Self::damped_force`] for a given displacement with its length data.
     #[inline(always)]
     pub(crate) fn damped_pull<V: Linear<Real = R>>(
         &self,
@@ -202,7 +201,7 @@ impl<V: Vector> PointLaw<V> for Tsda<V::Real> {
         ([along, V::ZERO, V::ZERO], 1)
     }
 
-    /// k along its line, and what its tension adds; a clearance counts as taken up.
+    /// k along its line, and its geometric stiffness; a clearance counts as closed.
     fn tangent(&self, stretch: &Stretch<V>, _: V, add: &mut impl FnMut(V::Real, V)) -> Turning<V> {
         let d = stretch.displacement;
         add(self.stiffness, d * d.dot(d).sqrt().reciprocal_or_zero());
@@ -258,7 +257,7 @@ mod tests {
         };
         assert_eq!(at(0.505), (0.0, 0.0));
         assert_eq!(at(0.495), (0.0, 0.0));
-        // Half a clearance beyond the edge half of the damper acts, a whole one beyond all of it.
+        // Half a clearance beyond the edge half of the damper acts, from a whole clearance on all of it.
         assert!((at(0.515).0 - (250.0 * 0.005 + 3.0)).abs() < 1e-9);
         let (force, energy) = at(0.52);
         assert!((force - (250.0 * 0.01 + 6.0)).abs() < 1e-9);

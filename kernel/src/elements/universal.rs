@@ -1,11 +1,10 @@
-//! A universal joint without a spider: a point bushing, and two axes that are held perpendicular.
+//! A universal joint without a spider: a point bushing, and two axes kept perpendicular by a spring.
 //!
-//! `(d, q, v_rel, q̇) => force on A = k·d + c·v_rel, torque on A = (k·q + c·q̇)·m`; on B the opposite.
-//! `q = l·n` is how far the axes lean from square \[m\]: n the unit axis of B, l that of A, as long as its
-//! lever. `m = n × l` is what q gains for a small turn of B, `q̇ = m·(ω_B − ω_A)`.
-//! Energy `½·k·(d·d + q²)`, so the lever ℓ makes a stiffness k·ℓ² against turns about l × n.
-//! Smooth everywhere, without a root or a division. As of a point bushing, the damper's `c·v_rel`
-//! keeps angular momentum as far as d vanishes.
+//! `(d, q, v_rel, q̇) => force on A = k·d + c·v_rel, torque on A = (k·q + c·q̇)·m`; on B the opposite. `q = l·n` is the
+//! axis error \[m\], 0 for perpendicular axes: n the unit axis of B, l that of A with the length of its lever arm.
+//! `m = n × l` is the derivative of q with respect to a small rotation of B, `q̇ = m·(ω_B − ω_A)`. Energy
+//! `½·k·(d·d + q²)`, so the lever arm ℓ makes a stiffness k·ℓ² against rotation about l × n. Smooth everywhere, without
+//! a root or a division. As for a point bushing, the damper's `c·v_rel` conserves angular momentum only up to d.
 
 use crate::elements::point_law::{PointLaw, Stretch, Turning};
 use crate::real::Real as _;
@@ -16,13 +15,13 @@ use crate::space::{Linear as _, Space, Vector as _};
 pub struct Universal<S: Space> {
     /// \[N/m\] stiffness in every direction, ≥ 0.
     pub stiffness: S::Real,
-    /// \[m\] axis of the first body in its axes, as long as its lever.
+    /// \[m\] axis of the first body in its axes, with the length of its lever arm.
     pub lever: S::Vector,
     /// \[1\] unit axis of the second body in its axes.
     pub axis: S::Vector,
 }
 
-/// How two axes lean, world.
+/// The axis error of two axes, world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lean<S: Space> {
     /// \[m\] `l·n`.
@@ -56,7 +55,7 @@ impl<S: Space> Universal<S> {
 }
 
 impl<S: Space> PointLaw<S::Vector> for Universal<S> {
-    /// \[m\] of point and axes together, `√(d·d + q²)`.
+    /// \[m\] of the point and the axes together, `√(d·d + q²)`.
     #[inline]
     fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
         let (d, q) = (stretch.displacement, stretch.lean);
@@ -70,14 +69,14 @@ impl<S: Space> PointLaw<S::Vector> for Universal<S> {
         S::Real::HALF * self.stiffness * (d.dot(d) + q * q)
     }
 
-    /// Along the world's axes; the one that holds the axes only turns and is visited beside these.
+    /// Along the world's axes; the damper that holds the axes is a moment and is visited separately.
     #[inline(always)]
     fn damped(_: &Stretch<S::Vector>) -> ([S::Vector; 3], usize) {
         (S::Vector::axes(), S::Vector::DIMENSION)
     }
 
-    /// k in every direction, the force on a turning arm, and the torque of a lean on turning axes. What
-    /// holds the axes is added beside this, for it only turns.
+    /// k in every direction, the effect of the force on a rotating lever arm, and of the axis error's torque on
+    /// rotating axes. The stiffness that holds the axes is added separately as a moment.
     fn tangent(
         &self,
         stretch: &Stretch<S::Vector>,
@@ -98,7 +97,7 @@ mod tests {
     use super::*;
     use crate::vector::{Quaternion, Vec3};
 
-    /// What the energy gains for a small turn of the second axis is the torque on it.
+    /// The derivative of the energy with respect to a small rotation of the second axis is the torque on it.
     #[test]
     fn the_gradient_of_the_lean_is_that_of_its_energy() {
         let universal = Universal::<f64>::from_f64(50.0, [0.2, 0.0, 0.0], [0.6, 0.0, 0.8]);

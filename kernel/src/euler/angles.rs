@@ -1,4 +1,4 @@
-//! Three angles in a sequence: what they turn to, and how a turn changes them.
+//! Three angles in a sequence: their rotation, and how a rotation changes them.
 //!
 //! `(angles) => matrix, quaternion; (angles, rotation vector) => angles`.
 
@@ -8,7 +8,7 @@ use crate::real::Real;
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
-/// A number whose sine and cosine this geometry may take.
+/// A number type with sine and cosine.
 pub trait Trigonometric: Real + Named {
     /// (sin x, cos x).
     fn sin_cos(self) -> (Self, Self);
@@ -26,7 +26,7 @@ impl Trigonometric for f32 {
     }
 }
 
-/// A sequence of turns about body axes, the first angle about z.
+/// A sequence of rotations about body axes, the first angle about z.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Sequence {
@@ -37,19 +37,19 @@ pub enum Sequence {
     YawRollPitch,
 }
 
-/// An orientation as three angles \[rad\] in a sequence. First and last lie within ±2π, so that
-/// half of them gives the sign of the quaternion, too, which winding springs need.
+/// An orientation as three angles \[rad\] in a sequence. First and last are within ±2π, so that their halves determine
+/// the sign of the quaternion, which revolution counts need.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct EulerAngles<R> {
     /// \[rad\] first, middle and last angle.
     pub angles: Vec3<R>,
-    /// What they turn about.
+    /// The axes they rotate about.
     pub sequence: Sequence,
 }
 
 impl<R: Trigonometric> EulerAngles<R> {
-    /// The rotation matrix: six values of sine and cosine.
+    /// The rotation matrix: six evaluations of sine and cosine.
     #[must_use]
     pub fn rotation(&self) -> Rotation<R> {
         let (s1, c1) = self.angles.x.sin_cos();
@@ -90,7 +90,7 @@ impl<R: Trigonometric> EulerAngles<R> {
     /// The angles of a unit quaternion in a sequence. At its pole the last angle is 0.
     pub(super) fn of(q: Quaternion<R>, sequence: Sequence) -> Self {
         let r = q.rotation();
-        // Rounding leaves some ulps of the cosine at the pole.
+        // Rounding leaves a few ulps of the cosine at the pole.
         let pole = R::from_f64(1e-6) * R::from_f64(1e-6);
         let angles = match sequence {
             Sequence::YawPitchRoll => {
@@ -110,7 +110,7 @@ impl<R: Trigonometric> EulerAngles<R> {
         let mut result = Self { angles, sequence };
         let found = result.quaternion();
         if found.w * q.w + found.v.dot(q.v) < R::ZERO {
-            // A turn more, or less: the other sign of the quaternion.
+            // One revolution more or less: the other sign of the quaternion.
             let turn = R::TWO * R::PI;
             let yaw = &mut result.angles.x;
             *yaw = if *yaw > R::ZERO { *yaw - turn } else { *yaw + turn };
@@ -123,7 +123,7 @@ impl<R: Trigonometric> EulerAngles<R> {
         self.angles.y.abs() > R::PI / (R::TWO + R::ONE)
     }
 
-    /// Brings first and last angle within ±2π and changes the sequence near the pole.
+    /// Restores first and last angle to ±2π and changes the sequence near the pole.
     pub(super) fn settle(&mut self) {
         let Vec3 { x, y, z } = self.angles;
         self.angles = Vec3::new(wrapped(x), y, wrapped(z));
@@ -152,7 +152,7 @@ impl<R: Trigonometric> EulerAngles<R> {
         }
     }
 
-    /// Turns by a rotation vector in body axes.
+    /// Rotates by a rotation vector in body axes.
     pub(super) fn turn_by(&mut self, turn: Vec3<R>) {
         let rates = |angles: Vec3<R>| Self::rates(self.sequence, angles, turn);
         let start = self.angles;
@@ -179,7 +179,7 @@ impl<R: Real> Words for EulerAngles<R> {
     }
 }
 
-/// An angle of magnitude beyond 2π less two turns, which change no quaternion.
+/// An angle of magnitude beyond 2π minus two revolutions, which changes no quaternion.
 fn wrapped<R: Real>(angle: R) -> R {
     let turn = R::TWO * R::PI;
     if angle > turn {

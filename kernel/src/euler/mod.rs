@@ -1,12 +1,11 @@
-//! Euler angles as the stored orientation, as the paper has it (Franco & Degani 2026, section 2.2).
+//! Euler angles as the stored orientation, as in the paper (Franco & Degani 2026, section 2.2).
 //!
-//! `(angles, turn) => angles`, by the kinematic equation `α̇ = E(α)·ω` over each turn's constant rate
-//! (classical Runge–Kutta: schemes keep their order up to four). `E` is singular where the middle
-//! angle is ±90°. So the angles change from yaw–pitch–roll (3-2-1) to yaw–roll–pitch
-//! (3-1-2) and back where the cosine of the middle one falls below ½: the other is then above
-//! √3/2.
-//! Everything else is that of [`Float`]: The sine and cosine are libm's in pure Rust: the same bits
-//! everywhere. Unlike a quaternion the angles drift from the true turn, by O(h⁴) in all schemes.
+//! `(angles, rotation) => angles`, by the kinematic equation `α̇ = E(α)·ω` over each rotation's constant rate
+//! (classical Runge–Kutta: schemes keep their order up to four). `E` is singular where the middle angle is ±90°. So the
+//! angles change from yaw–pitch–roll (3-2-1) to yaw–roll–pitch (3-1-2) and back where the cosine of the middle one
+//! falls below ½: the other is then above √3/2. Everything else is that of [`Float`]. Sine and cosine are libm's in
+//! pure Rust: the same bits everywhere. Unlike a quaternion the angles drift from the exact rotation, by O(h⁴) in all
+//! schemes.
 
 mod angles;
 

@@ -1,9 +1,9 @@
-//! The rotation matrix of a unit quaternion in fixed point, whose rounding is made up for by the next.
+//! The rotation matrix of a unit quaternion in fixed point, with error feedback of its rounding.
 //!
-//! `(quaternion, carry) => matrix, to 2^-30; carry`. What an entry loses is added to it at the next pose (error
-//! feedback: Spang & Schultheiss 1962), so that what a matrix is off is the difference of two roundings. Forces
-//! of stiff springs are as noisy as before, but their noise has nearly nothing at the frequencies of a mechanism: of
-//! its power at a frequency ω the part (ω·h)² is left.
+//! `(quaternion, carry) => matrix, to 2^-30; carry`. The rounding error of an entry is added to it at the next pose
+//! (error feedback: Spang & Schultheiss 1962), so that the error of a matrix is the difference of two rounding errors.
+//! Forces of stiff springs are as noisy as before, but the noise at the frequencies of a mechanism is small: at a
+//! frequency ω the fraction (ω·h)² of its power remains.
 
 use crate::fixed::number::{halves, square_of_halves, sum_of_products};
 use crate::words::{Word, WordSource, WordVisitor, Words};
@@ -12,10 +12,10 @@ use crate::words::{Word, WordSource, WordVisitor, Words};
 const ONE: i64 = 1 << 60;
 /// Bits that an entry loses, of 59 after the point.
 const LOST: u32 = 29;
-/// All of them.
+/// Mask of these bits.
 const ALL: u32 = (1 << LOST) - 1;
 
-/// What the entries of a matrix have lost, row by row \[2^-59\].
+/// The rounding errors of a matrix's entries, row by row \[2^-59\].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub(super) struct Carry {
@@ -23,10 +23,11 @@ pub(super) struct Carry {
 }
 
 impl Carry {
-    /// That of a pose where none was before: its entries are the nearest.
+    /// For a pose without a predecessor: its entries are rounded to nearest.
     pub(super) const NEAREST: Self = Self { lost: [[ALL >> 1; 3]; 3] };
 
-    /// What a matrix was made with, given what it lost, but for whole units: made once more it is the same.
+    /// The carry before a matrix was computed, from the carry after it, up to whole units: the same matrix results
+    /// again.
     #[inline(always)]
     fn before(&self) -> Self {
         Self { lost: self.lost.map(|row| row.map(|lost| ALL - lost)) }
@@ -41,12 +42,12 @@ impl Carry {
     }
 }
 
-/// The matrix of a pose that a body gets to.
+/// The matrix of a pose that a body has reached in a step.
 #[inline(always)]
 pub(super) fn next(w: i64, v: [i64; 3], carry: &mut Carry) -> [[i32; 3]; 3] {
     let (w, [x, y, z]) = (halves(w), v.map(halves));
     let [xx, yy, zz] = [x, y, z].map(square_of_halves);
-    // Twice the products, and of 60 bits after the point 59.
+    // Twice the products; 59 of 60 fraction bits.
     let mut pair = |[row, column]: [usize; 2], (a, b), (c, d)| {
         let (along, turned) = (sum_of_products([(a, b)]), sum_of_products([(c, d)]));
         [
@@ -63,7 +64,7 @@ pub(super) fn next(w: i64, v: [i64; 3], carry: &mut Carry) -> [[i32; 3]; 3] {
     [[first, yx, zx], [xy, second, zy], [xz, yz, third]]
 }
 
-/// [`next`] of a pose turned about z alone: the same bits.
+/// [`next`] of a pose rotated about z only: the same bits.
 #[inline(always)]
 pub(super) fn next_about_z(w: i64, z: i64, carry: &mut Carry) -> [[i32; 3]; 3] {
     let (w, z) = (halves(w), halves(z));
@@ -73,7 +74,7 @@ pub(super) fn next_about_z(w: i64, z: i64, carry: &mut Carry) -> [[i32; 3]; 3] {
     [[carry.entry(0, 0, along), yx, 0], [xy, carry.entry(1, 1, along), 0], [0, 0, 1 << 30]]
 }
 
-/// The matrix of a pose that a body is in.
+/// The matrix of a body's present pose.
 #[inline(always)]
 pub(super) fn here(w: i64, v: [i64; 3], carry: &Carry) -> [[i32; 3]; 3] {
     next(w, v, &mut carry.before())

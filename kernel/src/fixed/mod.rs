@@ -1,15 +1,15 @@
-//! Fixed-point geometry: near double precision on a unit for single precision.
+//! Fixed-point geometry: nearly double precision with a single-precision FPU.
 //!
-//! `positions, orientations, points in integers => exact differences => single precision`. Where
-//! bodies are is stored in integers of 64 bits, metres to 2^-57 and unit quaternions to 2^-62; a rotation
-//! has 30 bits after the point, and what it loses is added to the next; a point has 27. A point's place is the exact
-//! sum of products, the way between two points their exact difference, rounded once to single precision. The centre
-//! of a star is placed beside where it rested in B at the start ([`crate::reach::AtRest`]). Forces, rates and their
-//! increments are `f32`, velocities sums of two words ([`FixedVelocity`]), of gravity as well
-//! ([`Geometry::FALLS`]): laws, sweeps, schemes are those of `f32`.
+//! `positions, orientations, points in integers => exact differences => single precision`. Positions and orientations
+//! of bodies are stored in 64-bit integers, metres to 2^-57 and unit quaternions to 2^-62; a rotation matrix has 30
+//! fraction bits, and its rounding error is added to the next; a point has 27. A world point is the exact sum of
+//! products, the displacement between two points their exact difference, rounded once to single precision. The centre
+//! of a spring triple is computed relative to its reference position in B ([`crate::reach::AtRest`]). Forces, rates and
+//! their increments are `f32`, velocities sums of two numbers ([`FixedVelocity`]), also for gravity
+//! ([`Geometry::FALLS`]): laws, damper passes and schemes are those of `f32`.
 //!
-//! Integers have ends, and [`LIMITS`] says where: a model is checked when a plant of it is made, a state after
-//! every step ([`Cause::Extent`](crate::status::Cause)), and none ever wraps. Constants of models are made by
+//! Integers have a limited range, see [`LIMITS`]: a model is checked when its plant is created, a state after every
+//! step ([`Cause::Extent`](crate::status::Cause)), and no integer wraps. Constants of models are made by
 //! [`FixedPoint::new`], [`FixedPlace::new`], [`FixedTurn::new`] and `BodyState::<Fixed>::new`.
 
 mod matrix;
@@ -39,21 +39,21 @@ use crate::vector::Vec3;
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Fixed;
 
-/// Bits after the point of a short way, metres: 32 bits hold it below 1/4 m.
+/// Fraction bits of a short displacement, metres: it fits 32 bits below 1/4 m.
 const NEAR: i32 = 33;
 
-/// Whether a component of a way is below 0.2 m: three squares of such fit together.
+/// Whether a component of a displacement is below 0.2 m: the sum of three such squares fits.
 #[inline(always)]
 fn is_near(c: i64) -> bool {
     const MOST: i32 = (1 << (PLACE - 32)) / 5;
     ((c >> 32) as i32).wrapping_add(MOST) as u32 <= 2 * MOST as u32
 }
 
-/// The reach of a way that is not near. Inlined: a call costs those that are near more.
+/// The displacement beyond the near range. Inlined: a call would cost the near case more.
 #[inline(always)]
 fn far(d: &[i64; 3], free_length: f32) -> Reach<Vec3<f32>> {
     let way = nearest::<PLACE>(*d);
-    // Beyond this the sums of squares end, and the way tells as well as theirs would.
+    // Beyond this the sums of squares overflow, and the displacement itself is as precise.
     if way.dot(way) > 256.0 || free_length > 16.0 {
         return Reach { way, more: Some(way.dot(way) - free_length * free_length) };
     }
@@ -93,7 +93,7 @@ impl Geometry for Fixed {
     #[inline(always)]
     fn place(frame: &FixedPose, local: &FixedPoint) -> (FixedPlace, Vec3<f32>) {
         let turned = frame.turned(local.at.map(|c| c as i32), [0; 3]);
-        // An arm rounded in its parts would turn bodies by forces that pass it by.
+        // The lever arm is rounded as a sum: rounded by parts it would make forces through the centre exert a torque.
         (FixedPlace { at: sum(frame.position, turned) }, nearest::<PLACE>(turned))
     }
     #[inline(always)]
@@ -215,7 +215,7 @@ impl Geometry for Fixed {
     fn spin_up(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.add_to_both(increment);
     }
-    // A sum is the nearest as it is: nothing added changes nothing.
+    // The sum is already rounded to nearest: adding 0 changes nothing.
     #[inline(always)]
     fn spin_up_across<const AXIS: usize>(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.add_to_both_across::<AXIS>(increment);
@@ -226,7 +226,7 @@ impl Geometry for Fixed {
     fn translate(position: &mut FixedPlace, displacement: Vec3<f32>) {
         move_by(position, displacement * const { single_power(PLACE - 32) });
     }
-    // The time in other units takes no product of its own.
+    // Converting the time's unit needs no multiplication of its own.
     #[inline(always)]
     fn fly(position: &mut FixedPlace, velocity: &FixedVelocity, time: f32) {
         move_by(position, velocity.sum * (time * const { single_power(PLACE - 32) }));
@@ -246,7 +246,7 @@ impl Geometry for Fixed {
         };
         orientation.turn_exactly::<AXIS>(exact_product(sum, lost, 0.5 * time));
     }
-    // A turn does the rest on the way.
+    // Rotations restore unit length themselves.
     #[inline(always)]
     fn renormalise(orientation: &mut FixedTurn) {
         orientation.next_matrix();
@@ -258,7 +258,7 @@ impl Geometry for Fixed {
     #[inline(always)]
     fn is_within(position: &FixedPlace) -> bool {
         const EXTENT: i32 = (LIMITS.extent as i32) << (PLACE - 32);
-        // One comparison for both sides.
+        // One comparison for both signs.
         let is_within =
             |c: i64| ((c >> 32) as i32).wrapping_add(EXTENT) as u32 <= 2 * EXTENT as u32;
         let [x, y, z] = position.at;

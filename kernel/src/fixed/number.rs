@@ -1,15 +1,15 @@
-//! Numbers of fixed point: an integer times a power of two that its type does not know.
+//! Fixed-point numbers: an integer times a power of two given by the context.
 //!
-//! `f64, f32 <=> i64`, and the product of two numbers of magnitude 1. Conversions to integers saturate;
-//! sums are the caller's to keep in range. Everything is exact or says by how much it is not.
+//! `f64, f32 <=> i64`, and the product of two numbers of magnitude 1. Conversions to integers saturate; callers keep
+//! sums in range. Results are exact or have a stated error.
 
 /// 2 to a power, exact.
 const fn power_of_two(exponent: u32) -> f64 {
     (1_u64 << exponent) as f64
 }
 
-/// `value·2^bits` to the nearest integer, ties away from zero. What is too large saturates, what is no
-/// number becomes the least, which no range holds.
+/// `value·2^bits` to the nearest integer, ties away from zero. Values out of range saturate; NaN becomes the minimum,
+/// which is out of every range.
 pub(crate) const fn from_f64(value: f64, bits: u32) -> i64 {
     if value.is_nan() {
         return i64::MIN;
@@ -36,8 +36,8 @@ pub(crate) const fn single_power(exponent: i32) -> f32 {
     f32::from_bits(((exponent + 127) as u32) << 23)
 }
 
-/// `value·2^(WHOLE + PART)`, cut off towards zero: the upper part by `2^WHOLE`, what it leaves, exactly, by
-/// `2^PART`, at most 30. Saturates at `2^(31 + PART)`.
+/// `value·2^(WHOLE + PART)`, truncated towards zero: the upper part by `2^WHOLE`, its exact remainder by `2^PART`, at
+/// most 30. Saturates at `2^(31 + PART)`.
 #[inline(always)]
 pub(crate) fn from_f32<const WHOLE: i32, const PART: i32>(value: f32) -> i64 {
     let scaled = value * const { single_power(WHOLE) };
@@ -46,30 +46,30 @@ pub(crate) fn from_f32<const WHOLE: i32, const PART: i32>(value: f32) -> i64 {
     (i64::from(whole) << PART).wrapping_add(i64::from(part as i32))
 }
 
-/// The number of single precision near `value·2^-BITS`: within 2^-23 of itself, or 128 where that is more.
+/// The single-precision number near `value·2^-BITS`: within 2^-23 of it, or 128 where that is more.
 #[inline(always)]
 pub(crate) fn to_f32<const BITS: i32>(value: i64) -> f32 {
     let (high, low) = ((value >> 32) as i32, value as u32);
     high as f32 * const { single_power(32 - BITS) } + low as f32 * const { single_power(-BITS) }
 }
 
-/// The upper half of a number's digits, and the lower.
+/// The upper and the lower half of a number's digits.
 #[inline(always)]
 fn digits(value: f32) -> (f32, f32) {
     let upper = f32::from_bits(value.to_bits() & 0xffff_f000);
     (upper, value - upper)
 }
 
-/// `(sum − lost)·factor` as two numbers that add up to it, to 2^-35 of it: the product of the upper halves of
-/// their digits, which is exact, and all else (Dekker 1971).
+/// `(sum − lost)·factor` as two numbers whose sum is it to 2^-35: the product of the upper halves of their digits,
+/// which is exact, and the remainder (Dekker 1971).
 #[inline(always)]
 pub(crate) fn exact_product(sum: f32, lost: f32, factor: f32) -> (f32, f32) {
     let ((a, b), (p, q)) = (digits(sum), digits(factor));
     (a * p, a * q + (b - lost) * factor)
 }
 
-/// `value·2^(WHOLE + 32)` but for its last two bits, cut off towards zero: the upper word by `2^WHOLE`, what it leaves
-/// the lower. For what 64 bits hold.
+/// `value·2^(WHOLE + 32)` without its last two bits, truncated towards zero: the upper word by `2^WHOLE`, the remainder
+/// in the lower. For values that fit 64 bits.
 #[inline(always)]
 pub(crate) fn in_words<const WHOLE: i32>(value: f32) -> i64 {
     let scaled = value * const { single_power(WHOLE) };
@@ -78,22 +78,22 @@ pub(crate) fn in_words<const WHOLE: i32>(value: f32) -> i64 {
     (i64::from(whole) << 32).wrapping_add(i64::from(part as i32) << 2)
 }
 
-/// The nearest multiple of 2^32, over it, and what is left.
+/// The nearest multiple of 2^32, divided by it, and the remainder.
 #[inline(always)]
 pub(crate) fn halves(value: i64) -> (i32, i32) {
     let low = value as i32;
     (((value >> 32) as i32).wrapping_add(i32::from(low < 0)), low)
 }
 
-/// [`to_f32`], as near on both sides of zero.
+/// [`to_f32`], rounded symmetrically about zero.
 #[inline(always)]
 pub(crate) fn nearest_f32<const BITS: i32>(value: i64) -> f32 {
     let (high, low) = halves(value);
     high as f32 * const { single_power(32 - BITS) } + low as f32 * const { single_power(-BITS) }
 }
 
-/// The sum of products of numbers in halves, in units of 2^64: within 2 of them. The sum of what is across is to
-/// stay below 2^63: that of components of one unit quaternion does.
+/// The sum of products of numbers in halves, in units of 2^64: within 2 of them. The sum of the cross terms must stay
+/// below 2^63, as for the components of a unit quaternion.
 #[inline(always)]
 pub(crate) fn sum_of_products<const N: usize>(pairs: [((i32, i32), (i32, i32)); N]) -> i64 {
     let (mut upper, mut across) = (0_i64, 0_i64);
@@ -119,7 +119,7 @@ pub(crate) fn squared<const N: usize>(components: &[i64; N]) -> i64 {
     sum_of_squares(components.map(halves))
 }
 
-/// The same of numbers in halves.
+/// [`squared`] of numbers in halves.
 #[inline(always)]
 pub(crate) fn sum_of_squares<const N: usize>(components: [(i32, i32); N]) -> i64 {
     let (mut upper, mut across) = (0_i64, 0_i64);
@@ -131,11 +131,11 @@ pub(crate) fn sum_of_squares<const N: usize>(components: [(i32, i32); N]) -> i64
     upper + 2 * (across >> 32)
 }
 
-/// The square of a length below 32 m that single precision holds, in the units of [`squared`] of places:
-/// 50 bits after the point, cut off.
+/// The square of a length below 32 m in single precision, in the units of [`squared`] of positions: 50 fraction bits,
+/// truncated.
 #[inline(always)]
 pub(crate) fn square_of(length: f32) -> i64 {
-    // Exact from 4 mm on, where the digits of single precision end at 2^-31; below cut off there.
+    // Exact from 4 mm on, where the last digit of single precision is 2^-31; truncated there below.
     if length < 1.0 {
         let whole = i64::from((length * const { single_power(31) }) as i32);
         (whole * whole) >> 12
@@ -145,8 +145,8 @@ pub(crate) fn square_of(length: f32) -> i64 {
     }
 }
 
-/// `a·b` of two numbers of 62 bits after the point, in 60 bits: from 3 below it to 1 above, without the
-/// product of both lower halves. For magnitudes up to 1.99.
+/// `a·b` of two numbers with 62 fraction bits, with 60 fraction bits: from 3 below it to 1 above, without the product
+/// of both lower halves. For magnitudes up to 1.99.
 #[inline(always)]
 pub(crate) fn product(a: i64, b: i64) -> i64 {
     let (a_high, b_high) = (a >> 32, b >> 32);
@@ -179,7 +179,7 @@ pub(super) mod tests {
         for word in words(1).take(10_000) {
             let value = (word as i64 >> 11) as f64 * (-70.0_f64).exp2();
             let exact = (word as i64 >> 11) as i128;
-            // 2^13 units of 2^-70 to one of 2^-57.
+            // 2^13 units of 2^-70 per unit of 2^-57.
             let off = i128::from(from_f64(value, 57)) * (1 << 13) - exact;
             assert!(off.abs() <= 1 << 12, "{value:e}: {off}");
             assert_eq!(to_f64(word as i64 >> 11, 57) * 57.0_f64.exp2(), (word as i64 >> 11) as f64);
@@ -213,12 +213,12 @@ pub(super) mod tests {
         }
     }
 
-    /// What is always off the same way adds up in a sum over steps.
+    /// A rounding error of constant sign would accumulate over steps.
     #[test]
     fn the_nearest_of_single_precision_takes_no_side() {
         let (mut sum, mut count) = (0_i128, 0_i128);
         for word in words(8).take(400_000) {
-            // Magnitudes from a half to 1, of 62 bits: one of 24 bits is 2^38 units.
+            // Magnitudes from a half to 1, 62 bits: one unit of 24 bits is 2^38 units.
             let magnitude = (word >> 3) as i64 | (1 << 61);
             let value = if word & 1 == 0 { magnitude } else { -magnitude };
             let off = (f64::from(nearest_f32::<62>(value)) * 62.0_f64.exp2()) as i128;
@@ -267,7 +267,7 @@ pub(super) mod tests {
             if exact.unsigned_abs() >> 124 > 0 {
                 continue;
             }
-            // 2^64 units of 2^-124 to one of 2^-60.
+            // 2^64 units of 2^-124 per unit of 2^-60.
             let off = (i128::from(product(a, b)) << 64) - exact;
             worst = [worst[0].min(off), worst[1].max(off)];
         }

@@ -1,25 +1,25 @@
-//! Places and points of fixed point, how far they may go, and the ways between them.
+//! Fixed-point positions and points, their range, and the displacements between them.
 //!
-//! `metres <=> integers, integers => single precision`. What no guard looks into has room beyond the limits.
+//! `metres <=> integers, integers => single precision`. Values between two checks have room beyond the limits.
 
 use crate::fixed::number::{from_f64, in_words, nearest_f32, single_power, to_f32};
 use crate::geometry::Limits;
 use crate::vector::Vec3;
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
-/// Bits after the point of a position and of a place, metres.
+/// Fraction bits of a position and of a world point, metres.
 pub(crate) const PLACE: i32 = 57;
-/// Bits after the point of a body's points, metres.
+/// Fraction bits of a body's points, metres.
 pub(crate) const POINT: i32 = 27;
 
-/// How far bodies and points may go. Within a step, which no guard looks into, a body may go 7 drifts beyond:
-/// places are below 32 m then, ways between two of them below 64 m, which is where integers end.
+/// The range of bodies and points. Within a step, between two checks, a body may move 7 drifts beyond: positions are
+/// then below 32 m and displacements between two of them below 64 m, the limit of the integers.
 pub const LIMITS: Limits = Limits { extent: 24.0, reach: 7.0, drift: 0.125, shift: 7.0 };
 
-/// Where a body is after a drift beyond the limits: 32 m, from where no drifts of a step lead back.
+/// The position of a body after a drift beyond the limits: 32 m, from where the drifts of a step cannot return.
 const LOST: i64 = 1 << (PLACE + 5);
 
-/// Where something is, metres to 2^-57.
+/// A position, metres to 2^-57.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct FixedPlace {
@@ -31,12 +31,12 @@ pub struct FixedPlace {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct FixedPoint {
-    /// \[2^-27 m\] of a body within 32 bits.
+    /// \[2^-27 m\] for a body within 32 bits.
     pub at: [i64; 3],
 }
 
 impl FixedPlace {
-    /// A place \[m\] rounded once.
+    /// A position \[m\] rounded once.
     #[must_use]
     pub const fn new(at: [f64; 3]) -> Self {
         let bits = PLACE as u32;
@@ -53,7 +53,7 @@ impl FixedPoint {
     }
 }
 
-/// Words of a vector of integers.
+/// The words of a vector of integers.
 macro_rules! words {
     ($($name:ident)*) => {
         $(impl Words for $name {
@@ -81,7 +81,7 @@ pub(super) fn single<const BITS: i32>(at: [i64; 3]) -> Vec3<f32> {
     Vec3::new(x, y, z)
 }
 
-/// The same near zero, from both sides.
+/// [`single`], rounded symmetrically about zero.
 #[inline(always)]
 pub(super) fn nearest<const BITS: i32>(at: [i64; 3]) -> Vec3<f32> {
     let [x, y, z] = at.map(nearest_f32::<BITS>);
@@ -100,13 +100,13 @@ pub(super) fn difference(a: [i64; 3], b: [i64; 3]) -> [i64; 3] {
     [a[0].wrapping_sub(b[0]), a[1].wrapping_sub(b[1]), a[2].wrapping_sub(b[2])]
 }
 
-/// A displacement \[m\] below 8 m, in the units of a place.
+/// A displacement \[m\] below 8 m, in the units of a position.
 #[inline(always)]
 pub(super) fn fixed(v: Vec3<f32>) -> [i64; 3] {
     [v.x, v.y, v.z].map(in_words::<{ PLACE - 32 }>)
 }
 
-/// Moves a place by a displacement in units of its upper word, or beyond all limits.
+/// Moves a position by a displacement in units of its upper word, or beyond all limits.
 #[inline(always)]
 pub(super) fn move_by(position: &mut FixedPlace, displacement: Vec3<f32>) {
     let most = const { (LIMITS.drift * LIMITS.drift) as f32 * single_power(2 * (PLACE - 32)) };

@@ -1,6 +1,6 @@
-//! The pose of a body in fixed point, as points are placed by it.
+//! The pose of a body in fixed point, used to compute its points.
 //!
-//! `(place, orientation) => matrix in integers and in single precision; (pose, point) => way`.
+//! `(position, orientation) => matrix in integers and in single precision; (pose, point) => displacement`.
 
 use crate::fixed::place::FixedPlace;
 use crate::fixed::turn::{FixedTurn, UNIT};
@@ -18,13 +18,13 @@ pub struct FixedPose {
 }
 
 impl FixedPose {
-    /// Where a body is.
+    /// Sets the present pose of a body.
     #[inline(always)]
     pub(super) fn set(&mut self, place: &FixedPlace, orientation: &FixedTurn) {
         self.set_matrix(place, orientation.matrix());
     }
 
-    /// Where a body gets to.
+    /// Sets the pose that a body has reached in a step.
     #[inline(always)]
     pub(super) fn set_next(&mut self, place: &FixedPlace, orientation: &mut FixedTurn) {
         if orientation.is_about_z() {
@@ -34,7 +34,7 @@ impl FixedPose {
         }
     }
 
-    // Number by number: what is made elsewhere is copied.
+    // Element by element: a matrix built elsewhere would be copied.
     #[inline(always)]
     fn set_matrix(&mut self, place: &FixedPlace, [p, q, r]: [[i32; 3]; 3]) {
         let Self { position, rotation: [x, y, z], single } = self;
@@ -53,7 +53,7 @@ impl FixedPose {
         }
     }
 
-    /// A point of the body, 27 bits after the point, in world axes beyond a way there: exact.
+    /// A point of the body, 27 fraction bits, in world axes, added to a displacement: exact.
     #[inline(always)]
     pub(super) fn turned(&self, point: [i32; 3], [x, y, z]: [i64; 3]) -> [i64; 3] {
         let point = point.map(i64::from);

@@ -1,7 +1,7 @@
-//! Stars beside where they rest.
+//! Spring triples relative to their reference position.
 //!
-//! `poses at the start => where the centre of a star rests in B; poses => how far it is off`. What a stiff joint
-//! gives way is the difference of places a metre away: exact in integers, and rounded once.
+//! `initial poses => reference position of a triple's centre in B; poses => its offset`. The deflection of a stiff
+//! joint is the difference of positions a metre apart: exact in integers, and rounded once.
 
 use crate::fixed::number::{single_power, to_f64};
 use crate::fixed::place::{
@@ -11,32 +11,32 @@ use crate::fixed::pose::FixedPose;
 use crate::reach::{AtRest, Beside, Beyond};
 use crate::vector::Vec3;
 
-/// A TSDA at rest, and its share of what is known of its star.
+/// A TSDA in its reference state, with its part of the triple's data.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rest {
-    /// In the axes of B. The way of the first of a star is a multiple of 2^-27 m.
+    /// In the axes of B. The displacement of a triple's first TSDA is a multiple of 2^-27 m.
     pub(super) at: AtRest<Vec3<f32>>,
-    /// \[2^-27 m\] of a star of three a component of where its centre rests, negative: x, y, z.
+    /// \[2^-27 m\] for a triple of three, one component of the centre's reference position, negated: x, y, z.
     pub(super) less: i32,
-    /// \[m²\] the sixteenth part of the least of its star's squares.
+    /// \[m²\] a sixteenth of the smallest of its triple's squared lengths.
     pub(super) near: f32,
 }
 
-/// A place in the axes of a body, to 2^-27 m; no further from its centre of mass than its points are.
+/// A position in the axes of a body, to 2^-27 m; no further from its centre of mass than its points are.
 fn within(frame: &FixedPose, place: &FixedPlace) -> [i64; 3] {
     let [dx, dy, dz] = difference(place.at, frame.position).map(i128::from);
     let [x, y, z] = frame.rotation.map(|row| row.map(i128::from));
     let along = |axis: usize| {
         let sum = x[axis] * dx + y[axis] * dy + z[axis] * dz;
-        // 30 bits of the matrix and 57 of the place.
+        // 30 bits of the matrix and 57 of the position.
         let most = (LIMITS.reach as i128) << POINT;
         (sum >> (30 + PLACE - POINT)).clamp(-most, most) as i64
     };
     [along(0), along(1), along(2)]
 }
 
-/// The TSDAs of a star at rest, whose centre is at `centre`. It rests near it, where the first's way is a number
-/// of single precision.
+/// The reference TSDAs of a triple whose centre is at `centre`. The reference position is near it, rounded such that
+/// the first displacement is representable in single precision.
 pub(super) fn find(
     frame: &FixedPose,
     centre: &FixedPlace,
@@ -65,16 +65,16 @@ pub(super) fn find(
     }
 }
 
-/// Where the centre of a star rests, negative, given its first point of B and that one's rest.
+/// The reference position of a triple's centre, negated, from its first endpoint and that leg's reference.
 #[inline(always)]
 pub(super) fn less(tip: &FixedPoint, first: &Rest) -> [i32; 3] {
-    // What single precision holds of a multiple of 2^-27 is one.
+    // A multiple of 2^-27 in single precision is exact.
     let Vec3 { x, y, z } = first.at.way * const { single_power(POINT) };
     let [a, b, c] = tip.at.map(|c| c as i32);
     [(x as i32).wrapping_sub(a), (y as i32).wrapping_sub(b), (z as i32).wrapping_sub(c)]
 }
 
-/// Where the centre of a star rests, negative.
+/// The reference position of a triple's centre, negated.
 #[inline(always)]
 fn less_of<const ARMS: usize>(tip: &FixedPoint, rests: &[Rest; ARMS]) -> [i32; 3] {
     match rests.as_slice() {
@@ -84,8 +84,8 @@ fn less_of<const ARMS: usize>(tip: &FixedPoint, rests: &[Rest; ARMS]) -> [i32; 3
     }
 }
 
-/// Where the centre of a star is beside where it rests. All in one sum of integers: A beside B, the arm in A, and,
-/// once that has told the arm in B, less where it rests there.
+/// The offset of a triple's centre from its reference position. One sum of integers: A relative to B, the lever arm in
+/// A, and, once the lever arm in B is computed from it, minus the reference position.
 #[inline(always)]
 pub(super) fn beside<const ARMS: usize>(
     apart: &[i64; 3],
@@ -104,7 +104,7 @@ pub(super) fn beside<const ARMS: usize>(
     Beside { off: single::<PLACE>(off), arm_a: arm, arm_b: nearest::<PLACE>(from_b) }
 }
 
-/// Where the centre of a second star is beyond that of the first.
+/// The offset of a second triple's centre relative to that of the first.
 #[inline(always)]
 pub(super) fn beyond<const ARMS: usize>(
     (a, [first, second]): (Option<&FixedPose>, [&FixedPoint; 2]),

@@ -10,7 +10,7 @@ use crate::sketch::{Sketch, Start};
 use crate::status::Cause;
 use crate::vector::Quaternion;
 
-/// Numbers in [−1, 1] of words.
+/// Numbers in [−1, 1] from words.
 fn units(seed: u64) -> impl Iterator<Item = f64> {
     words(seed).map(|word| (word as i64 >> 11) as f64 * (1.0 / (1_u64 << 52) as f64))
 }
@@ -21,8 +21,7 @@ fn unit(numbers: &mut impl Iterator<Item = f64>) -> [f64; 4] {
     q.map(|c| c / n)
 }
 
-/// The matrix of a stored quaternion, exact but for its length: entries times 2^124, and the length's
-/// square likewise.
+/// The matrix of a stored quaternion, exact up to its length: entries times 2^124, and the squared length likewise.
 fn exact_matrix(q: &FixedTurn) -> ([[i128; 3]; 3], i128) {
     let (w, [x, y, z]) = (i128::from(q.w), q.v.map(i128::from));
     let n = w * w + x * x + y * y + z * z;
@@ -40,11 +39,11 @@ fn matrices_are_the_exact_ones_to_the_nearest() {
     for _ in 0..20_000 {
         let q = FixedTurn::from_f64(unit(&mut numbers));
         let (exact, n) = exact_matrix(&q);
-        // The length of what double precision gives is 1 within 2^-50.
+        // The length of a quaternion in double precision is 1 within 2^-50.
         assert!((n - (1 << 124)).abs() < 1 << 74);
         for (row, exact) in q.matrix().into_iter().zip(exact) {
             for (c, exact) in row.into_iter().zip(exact) {
-                // 2^94 units of 2^-124 to one of 2^-30: half of one, and a 2^-19th for the length.
+                // 2^94 units of 2^-124 per unit of 2^-30: half of one, and a 2^-19th for the length.
                 let off = (i128::from(c) << 94) - exact;
                 assert!(off.abs() < (1 << 93) + (1 << 75), "{q:?}: {off}");
             }
@@ -59,10 +58,10 @@ fn what_a_matrix_loses_the_next_makes_up_for() {
         let start = unit(&mut numbers);
         let [w, _, _, z] = start;
         let n = libm::sqrt(w * w + z * z);
-        // Every other one turns about z alone, as in a plane.
+        // Every second one rotates about z only, as in a plane.
         let is_flat = case % 2 == 0;
         let mut q = FixedTurn::from_f64(if is_flat { [w / n, 0.0, 0.0, z / n] } else { start });
-        // The sum over all poses of what entries are off, times 2^94.
+        // The sum of the entries' errors over all poses, times 2^94.
         let mut off = [[0_i128; 3]; 3];
         for pose in 1..2_000 {
             q.turn_exactly::<2>((1e-3 * numbers.next().unwrap() as f32, 0.0));
@@ -79,7 +78,7 @@ fn what_a_matrix_loses_the_next_makes_up_for() {
             for ((row, exact), off) in matrix.into_iter().zip(exact).zip(&mut off) {
                 for ((c, exact), off) in row.into_iter().zip(exact).zip(off) {
                     *off += (i128::from(c) << 94) - exact;
-                    // One unit of 2^-30, and what an entry's sum and length are off in each pose.
+                    // One unit of 2^-30, and the errors of an entry's sum and length in each pose.
                     assert!(off.abs() < (1 << 94) + pose * (1 << 77), "{pose}: {off}");
                 }
             }
@@ -95,7 +94,7 @@ fn turns_are_exact_to_what_they_were_given() {
         let (a, turn) = (q, Quaternion::<f32>::from_f64(turn));
         q.turn(turn);
         q.renormalise();
-        // The exact product of the exact numbers of single precision, of unit length.
+        // The exact product of the exact single-precision numbers, of unit length.
         let [bw, bx, by, bz] = turn.to_f64().map(|c| (c * (1_u64 << 50) as f64) as i128);
         let (aw, [ax, ay, az]) = (i128::from(a.w), a.v.map(i128::from));
         let product = [
@@ -104,8 +103,8 @@ fn turns_are_exact_to_what_they_were_given() {
             aw * by + ay * bw + az * bx - ax * bz,
             aw * bz + az * bw + ax * by - ay * bx,
         ];
-        // Components by 2^112; the length is that of single precision and one Newton step takes its
-        // square off: 2^-46 of it is left.
+        // Components times 2^112; the length is that of single precision, corrected by one Newton step to an error of
+        // 2^-46.
         let length = turn.to_f64().iter().map(|c| c * c).sum::<f64>();
         let root = libm::sqrt(length);
         for (c, exact) in [q.w, q.v[0], q.v[1], q.v[2]].into_iter().zip(product) {
@@ -134,7 +133,7 @@ fn turns_about_axes_are_those_of_double_precision() {
             1 => q.turn_exactly::<1>((half, rest)),
             _ => q.turn_exactly::<2>((half, rest)),
         }
-        // Beside 1 and the angle, polynomials of single precision: three roundings of half the square.
+        // Apart from 1 and the angle, polynomials in single precision: three roundings of half the square.
         let bound = 1e-15 + 1e-7 * f64::from(half * half);
         for (c, expected) in q.to_f64().into_iter().zip(expected) {
             assert!((c - expected).abs() < bound, "{i}: {c} {expected}");
@@ -198,7 +197,7 @@ fn flight(at: f64, velocity: f64, spin: f64, steps: u64) -> (Result<(), Cause>, 
 #[test]
 fn what_leaves_its_limits_latches_and_never_wraps() {
     let extent = Err(Cause::Extent { body: BodyIndex(0) });
-    // At every speed up to the limit: the first step beyond the extent fails, on the side it left.
+    // At every speed up to the limit: the first step beyond the range fails, on the side where the body left it.
     for tenth in 1..=12 {
         let velocity = f64::from(tenth) * 10.0;
         for sign in [1.0, -1.0] {
@@ -207,10 +206,10 @@ fn what_leaves_its_limits_latches_and_never_wraps() {
             assert!(at * sign > 24.0 && at * sign < 24.2, "{velocity}: {at}");
         }
     }
-    // The whole way, from one end to the other.
+    // From one end of the range to the other.
     let (end, at) = flight(-24.0, 100.0, 0.0, 479);
     assert!(end.is_ok() && (at - 23.9).abs() < 1e-4, "{end:?} {at}");
-    // A kick makes it faster than a step bears, there and back within one.
+    // A kick makes it faster than a step allows, out and back within one step.
     let mut numbers = units(15);
     for _ in 0..1000 {
         let mut place = FixedPlace::new([24.0 * numbers.next().unwrap(); 3]);
@@ -275,7 +274,7 @@ fn way_beside(d: [i64; 3], free: f32) -> f64 {
 fn stars_from_where_they_rested_pull_as_their_points_do() {
     let mut numbers = units(17);
     for i in 0..10_000 {
-        // A stiff joint, a loose one, and parts that lie far apart.
+        // A stiff joint, a soft one, and distant parts.
         let scale = [1e-7, 1e-5, 1e-2, 1.0, 20.0][i % 5];
         let mut vector = |scale: f64| core::array::from_fn(|_| numbers.next().unwrap() * scale);
         let (at, local, shift) = (vector(3.0), vector(0.5), vector(scale));
@@ -288,9 +287,9 @@ fn stars_from_where_they_rested_pull_as_their_points_do() {
         Fixed::find_rests(&frame, &start, &tips, &[0.3; 3], &mut rests);
         let centre = FixedPoint { at: rests.map(|rest| -i64::from(rest.less)) };
         let near = difference(centre.at, FixedPoint::new(local).at);
-        // As single precision holds the first way, of up to 0.9 m.
+        // Single precision resolves the first displacement, up to 0.9 m.
         assert!(near.iter().all(|c| c.abs() <= 8), "{near:?}");
-        // B turned a little elsewhere, and the centre moved with it and beside it.
+        // B rotated slightly about another point, and the centre moved with it and relative to it.
         let turn = FixedTurn::from_f64(unit(&mut numbers));
         let frame = Fixed::frame(&FixedPlace::new(at.map(|c| 0.5 - c)), &turn);
         let (resting, _) = Fixed::place(&frame, &centre);
@@ -300,7 +299,7 @@ fn stars_from_where_they_rested_pull_as_their_points_do() {
         let beside = Fixed::beside(&apart, (None, &none), (&frame, &tips[0]), &rests);
         let exact = Fixed::displacement(&resting, &moved);
         assert_eq!(beside.off, exact);
-        // A star of its own with one point: where it rests is told by that.
+        // A separate triple with one point: its reference position is that of the point.
         let alone = Fixed::beside(&apart, (None, &none), (&frame, &tips[0]), &[rests[0]]);
         assert_eq!(alone, beside);
         let arm = beside.arm_b - nearest::<PLACE>(apart);
@@ -317,7 +316,7 @@ fn stars_from_where_they_rested_pull_as_their_points_do() {
             let length = f64::from(exact.dot(exact)).sqrt();
             let beyond = f64::from(reach.more.unwrap()) / (length + 0.3_f32 as f64);
             let exact = way_beside(difference(tip.at, moved.at), 0.3);
-            // What the matrix rounds, and the digits of single precision of what it is off and was apart.
+            // The matrix's rounding, and the single-precision resolution of the offset and of the initial distance.
             let bound = 3e-9 + 3e-7 * (far + exact.abs());
             assert!((beyond - exact).abs() < bound, "{far:e}: {beyond:e} {exact:e}");
         }
@@ -336,7 +335,7 @@ fn a_star_that_lies_far_off_rests_at_a_point_that_a_body_may_have() {
     }
 }
 
-/// Of two stars of a joint, the second from the first: as by itself.
+/// The second of two triples of a joint, computed from the first: as computed by itself.
 #[test]
 fn a_second_star_is_as_far_beyond_the_first_as_it_is_off() {
     let mut numbers = units(18);
@@ -369,7 +368,7 @@ fn a_second_star_is_as_far_beyond_the_first_as_it_is_off() {
     }
 }
 
-/// Near its rest a star pulls as it does by the ways of its springs.
+/// Near its reference a triple exerts the same force as its springs' displacements.
 #[test]
 fn a_star_near_its_rest_pulls_as_its_springs_do() {
     let mut numbers = units(19);
@@ -394,7 +393,7 @@ fn a_star_near_its_rest_pulls_as_its_springs_do() {
             let way = [x - p, y - q, z - r];
             let length = libm::sqrt(way.iter().map(|c| c * c).sum());
             let free = f64::from(spring.free_length);
-            // The square of a way of single precision is not quite what the rest knows.
+            // The square of a single-precision displacement differs slightly from the reference's.
             let more =
                 f64::from(rest.at.more) + (p * p + q * q + r * r - 2.0 * (p * x + q * y + r * z));
             let tension = 1e6 * more / (length + free);

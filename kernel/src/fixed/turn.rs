@@ -1,8 +1,8 @@
-//! A unit quaternion of fixed point, and the rotation of fixed point that it is.
+//! A fixed-point unit quaternion and its fixed-point rotation matrix.
 //!
-//! `(turn of single precision, quaternion) => quaternion, to 2^-60; quaternion => matrix, to 2^-30`.
-//! A turn is what a step adds and comes with the digits of single precision; what it is added to keeps
-//! its own. A turn that is no rotation, one of several radians, leaves zero, which stays zero.
+//! `(rotation in single precision, quaternion) => quaternion, to 2^-60; quaternion => matrix, to 2^-30`. The rotation
+//! of a step has single precision; the quaternion it is added to keeps its own. A rotation that is not representable,
+//! one of several radians, results in zero, which stays zero.
 
 use crate::attitude::Attitude;
 use crate::fixed::matrix::{self, Carry};
@@ -14,16 +14,16 @@ use crate::real::Real as _;
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
-/// Bits after the point.
+/// Fraction bits.
 const BITS: i32 = 62;
-/// What may be missing of unit length: less than a matrix shows, and no turn of a step takes more.
+/// The tolerance of unit length: below the resolution of a matrix, and not exceeded by the rotation of a step.
 const LITTLE: i64 = 1 << (BITS - 48);
-/// 1 with 60 bits after the point.
+/// 1 with 60 fraction bits.
 const ONE: i64 = 1 << 60;
-/// Half an angle that a turn takes at once.
+/// The largest half angle that is applied at once.
 const MOST: f32 = 0.25;
 
-/// A unit quaternion, 62 bits after the point, scalar first.
+/// A unit quaternion, 62 fraction bits, scalar first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct FixedTurn {
@@ -50,7 +50,7 @@ impl FixedTurn {
         Self::from_words(from_f64(w, bits), vector)
     }
 
-    /// Scalar and vector part of a unit quaternion as they are stored.
+    /// Scalar and vector part of a unit quaternion in stored form.
     #[must_use]
     pub const fn from_words(w: i64, v: [i64; 3]) -> Self {
         Self { w, v, carry: Carry::NEAREST }
@@ -62,11 +62,11 @@ impl FixedTurn {
         Self { v: self.v.map(i64::wrapping_neg), ..*self }
     }
 
-    /// Turns about a body axis by half the angle in two numbers, to 2^-35 of it.
+    /// Rotates about a body axis by half the angle in two numbers, to 2^-35 of it.
     #[inline(always)]
     pub(crate) fn turn_exactly<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
         let half = whole + rest;
-        // The sine has room up to a half, and no step that is any good gets there.
+        // The sine is valid up to a half, which no useful step reaches.
         if half.abs() <= MOST {
             self.turn_a_little::<AXIS>((whole, rest));
         } else {
@@ -74,7 +74,7 @@ impl FixedTurn {
         }
     }
 
-    /// The same in four parts, or none where it is several radians or no number.
+    /// The same in four parts, or fails where it is several radians or NaN.
     #[cold]
     #[inline(never)]
     fn turn_in_parts<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
@@ -91,22 +91,22 @@ impl FixedTurn {
     #[inline(always)]
     fn turn_a_little<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
         let half = whole + rest;
-        // What cosine and sine are beside 1 and the angle: Taylor polynomials.
+        // Cosine minus 1 and sine minus the angle: Taylor polynomials.
         let square = half * half;
         let cosine = square.polynomial(&[-0.5, 1.0 / 24.0, -1.0 / 720.0]) * square;
         let sine = square.polynomial(&[-1.0 / 6.0, 1.0 / 120.0, -1.0 / 5_040.0]) * square * half;
         let (w, [x, y, z]) = (halves(self.w), self.v.map(halves));
-        // What is missing of unit length comes back on the way: half of it of each component (Newton).
+        // The error of unit length is corrected: half of it in each component (Newton).
         let missing = ONE.wrapping_sub(sum_of_squares([w, x, y, z]));
         let cosine = halves(in_words::<32>(cosine).wrapping_add(missing << 3));
         let sine = in_words::<32>(whole).wrapping_add(in_words::<32>(rest + sine));
         let (sine, back) = (halves(sine), halves(sine.wrapping_neg()));
-        // By how much a component changes, with its sign what an axis does to it of another.
+        // The change of a component, with the sign of another one's contribution.
         let change = |c: (i32, i32), across: (i32, i32), sine: (i32, i32)| {
             sum_of_products([((c.0, 0), cosine), (across, sine)])
         };
         if AXIS == 2 && self.is_about_z() {
-            // Of what moves in a plane the others stay nothing.
+            // In planar motion the others stay zero.
             self.w = self.w.wrapping_add(change(w, z, back));
             self.v[2] = self.v[2].wrapping_add(change(z, w, sine));
             return;
@@ -143,20 +143,20 @@ impl FixedTurn {
         }
     }
 
-    /// Whether it turns about z alone, as what moves in a plane.
+    /// Whether it rotates about z only, as in planar motion.
     #[inline(always)]
     pub(super) fn is_about_z(&self) -> bool {
         let [x, y, _] = self.v;
         x | y == 0
     }
 
-    /// The matrix, 30 bits after the point.
+    /// The matrix, 30 fraction bits.
     #[inline(always)]
     pub(super) fn matrix(&self) -> [[i32; 3]; 3] {
         matrix::here(self.w, self.v, &self.carry)
     }
 
-    /// After the turns of a step: the matrix, and what it loses is kept for the next.
+    /// After the rotations of a step: the matrix; its rounding error is kept for the next.
     #[inline(always)]
     pub(super) fn next_matrix(&mut self) -> [[i32; 3]; 3] {
         matrix::next(self.w, self.v, &mut self.carry)
@@ -168,11 +168,11 @@ impl FixedTurn {
         matrix::next_about_z(self.w, self.v[2], &mut self.carry)
     }
 
-    /// Newton's step towards unit length, where it is not that to 2^-48.
+    /// A Newton step towards unit length, where the error exceeds 2^-48.
     #[inline(always)]
     fn lengthen(&mut self) {
         let [x, y, z] = self.v;
-        // Half of what is missing, 62 bits after the point.
+        // Half of the error, 62 fraction bits.
         let missing = ONE.wrapping_sub(squared(&[self.w, x, y, z])) << 1;
         if (-LITTLE..LITTLE).contains(&missing) {
             return;
@@ -187,10 +187,10 @@ impl FixedTurn {
     }
 }
 
-/// What a unit of a matrix of fixed point is worth.
+/// The value of one unit of a fixed-point matrix.
 pub(crate) const UNIT: f32 = 1.0 / (1 << 30) as f32;
 
-/// A matrix of fixed point in single precision, in its own units: whoever uses it scales one vector.
+/// A fixed-point matrix in single precision, in its own units: the caller scales one vector.
 #[inline(always)]
 pub(crate) fn in_whole(matrix: &[[i32; 3]; 3]) -> Rotation<f32> {
     let row = |[x, y, z]: [i32; 3]| Vec3::new(x as f32, y as f32, z as f32);
@@ -227,7 +227,7 @@ impl Attitude for FixedTurn {
         let Rotation { x, y, z } = in_whole(&self.matrix());
         Rotation { x: x * UNIT, y: y * UNIT, z: z * UNIT }
     }
-    // Torsion springs take their angle from it: what were cut off would be work, always the same way.
+    // Torsion springs take their angle from it: truncation would do work of constant sign.
     #[inline(always)]
     fn quaternion(&self) -> Quaternion<f32> {
         let [w, x, y, z] = [self.w, self.v[0], self.v[1], self.v[2]].map(nearest_f32::<BITS>);
@@ -257,7 +257,7 @@ impl Attitude for FixedTurn {
     #[inline(always)]
     fn is_lost(&self) -> bool {
         let [x, y, z] = self.v;
-        // One of a unit quaternion is at least a half.
+        // One component of a unit quaternion is at least a half.
         (self.w | x | y | z) >> 32 == 0
     }
     fn from_f64(orientation: [f64; 4]) -> Self {
@@ -266,7 +266,7 @@ impl Attitude for FixedTurn {
     fn to_f64(&self) -> [f64; 4] {
         [self.w, self.v[0], self.v[1], self.v[2]].map(|c| to_f64(c, BITS as u32))
     }
-    /// Where both are near each other what is small about their difference has all its digits.
+    /// For nearby orientations the small components of their difference have full precision.
     #[inline(always)]
     fn relative(first: Option<&Self>, second: Option<&Self>) -> Quaternion<f32> {
         match (first, second) {

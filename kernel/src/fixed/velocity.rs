@@ -1,6 +1,6 @@
-//! Velocities of [`Fixed`](crate::fixed::Fixed): two words of single precision per component.
+//! Velocities of [`Fixed`](crate::fixed::Fixed): two single-precision numbers per component.
 //!
-//! `(sum, lost) + increment => (sum, lost)`: what an addition rounds off is added at the next one.
+//! `(sum, lost) + increment => (sum, lost)`: the rounding error of an addition is added at the next one.
 
 use crate::vector::Vec3;
 use crate::words::{WordSource, WordVisitor, Words};
@@ -15,9 +15,8 @@ pub struct FixedVelocity {
     pub lost: Vec3<f32>,
 }
 
-/// An addition to a number of two words (Dekker, *Numer. Math.* 18, 1971): what is below the increment's last digit
-/// stays in what is lost. A compensated sum (Kahan) rounds that off, often the
-/// same way step after step.
+/// An addition to a number of two words (Dekker, *Numer. Math.* 18, 1971): the part below the increment's last digit
+/// stays in `lost`. A compensated sum (Kahan) would round it off, often in the same direction step after step.
 #[inline(always)]
 fn add_to_both(sum: &mut f32, lost: &mut f32, increment: f32) {
     let new = *sum + increment;
@@ -31,7 +30,7 @@ fn add_to_both(sum: &mut f32, lost: &mut f32, increment: f32) {
 const fn split(value: f64) -> (f32, f32) {
     let sum = value as f32;
     let lost = (sum as f64 - value) as f32;
-    // What is beyond single precision has lost everything, and is refused as such.
+    // A value beyond single precision loses everything and is refused.
     (sum, if lost.is_nan() || lost.is_infinite() { 0.0 } else { lost })
 }
 
@@ -54,7 +53,7 @@ impl FixedVelocity {
         [joined(sum.x, lost.x), joined(sum.y, lost.y), joined(sum.z, lost.z)]
     }
 
-    /// `self − before`: what both words say of a small difference.
+    /// `self − before`: a small difference from both words.
     #[inline(always)]
     pub(crate) fn since(&self, before: &Self) -> Vec3<f32> {
         (self.sum - before.sum) - (self.lost - before.lost)
@@ -66,7 +65,7 @@ impl FixedVelocity {
         self.add_to_both_across::<3>(increment);
     }
 
-    /// The same but for component `AXIS`.
+    /// [`Self::add_to_both`] without component `AXIS`.
     #[inline(always)]
     pub(crate) fn add_to_both_across<const AXIS: usize>(&mut self, increment: Vec3<f32>) {
         let Self { sum, lost } = self;
@@ -98,7 +97,7 @@ impl Words for FixedVelocity {
 mod tests {
     use super::*;
 
-    /// What a body falls by joins what is lost; the last digit of its pulls is above it.
+    /// The increment by gravity is added to `lost`; the last digit of the forces' increments is above it.
     #[test]
     fn both_words_keep_what_is_below_the_last_digit_of_an_increment() {
         const STEPS: i64 = 100_000;
@@ -131,7 +130,7 @@ mod tests {
                 assert!((double - exact).abs() <= 4e-15 * exact.abs(), "{double} {exact}");
             }
         }
-        // What no number of single precision holds is infinite, and shows.
+        // A value beyond single precision is infinite, which is detected.
         assert!(FixedVelocity::from_f64([1e300; 3]).to_f64()[0].is_infinite());
     }
 }

@@ -1,6 +1,6 @@
 //! Point bushings.
 //!
-//! `(group, ends) => record`, star by star: a point of A and its own of B each.
+//! `(group, ends) => record`, one after the other: a point of A and a point of B each.
 
 use crate::elements::point_bushing::PointBushing;
 use crate::forces::record::{Dampers, Record};
@@ -9,7 +9,7 @@ use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
 
-/// A group of point bushings. Two stars, a revolute's, go a straight line as TSDAs do (see
+/// A group of point bushings. Two bushings, a revolute's, take the specialised path, as TSDAs do (see
 /// [`crate::forces::stars`]).
 #[inline(always)]
 pub(super) fn bushings<P: Geometry, T: Terms<P>, D: Dampers>(
@@ -31,7 +31,7 @@ pub(super) fn bushings<P: Geometry, T: Terms<P>, D: Dampers>(
     }
 }
 
-/// Two stars.
+/// Two bushings.
 #[inline(always)]
 fn two<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -43,7 +43,7 @@ fn two<P: Geometry, T: Terms<P>, D: Dampers>(
     Some(first.with(&star::<P, T, D>(model, group, 1, end_a, end_b)?))
 }
 
-/// One star.
+/// One bushing.
 #[inline(always)]
 fn star<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,

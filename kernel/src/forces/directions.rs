@@ -10,13 +10,13 @@ use crate::model::{Law, ModelRef, Terms};
 use crate::real::{Real, choose};
 use crate::space::{Linear as _, Space, Vector as _};
 
-/// The springs of an element, unloaded: what its tension would add is left out.
+/// The springs of an element without load: the geometric stiffness of its tension is left out.
 pub(crate) struct Springs<S: Space> {
-    /// \[1\] world axes; of revolute joints as long as the root of what they are stiffer.
+    /// \[1\] world axes; for revolute joints with the root of the stiffness ratio as length.
     pub(crate) directions: [S::Vector; 3],
     /// \[N/m, N·s/m\] stiffness and damping along each.
     pub(crate) constants: [[S::Real; 2]; 3],
-    /// How many there are.
+    /// Their number.
     pub(crate) count: usize,
 }
 
@@ -47,7 +47,7 @@ pub(crate) fn springs<P: Geometry, T: Terms<P>>(
     if let Element::PointOnLine(law) = law
         && !(clearance.is_none() && law.free_length == P::Real::ZERO)
     {
-        // It pulls along the deflection alone, and damps across it, too.
+        // Its force is along the deflection; its damper acts across it, too.
         let e = stretch.displacement;
         let along = e * e.dot(e).sqrt().reciprocal_or_zero();
         springs.directions = [along, stretch.direction.across(along), P::Vector::ZERO];

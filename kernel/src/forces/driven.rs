@@ -1,7 +1,7 @@
-//! What the rate of moved ground does through dampers, by itself.
+//! The damper forces of moving ground alone.
 //!
-//! `(groups at moved ground, signals) => wrenches`. Part of what is pushed from outside: a rate jumps
-//! where a table has a knot, as a force does.
+//! `(groups at moved ground, signals) => wrenches`. Part of the external forces: a rate jumps at a knot of a table, as
+//! a force does.
 
 use crate::forces::directions::springs;
 use crate::forces::record::Wrench;

@@ -1,8 +1,8 @@
-//! Groups in line: all of one kind, their points and elements in the order of the groups.
+//! Uniform groups: all of one kind, their points and elements in the order of the groups.
 //!
-//! `(model, ends) => records, added to the wrenches`. None is asked what it is and where its parts lie:
-//! what most mechanisms are, whose joints are all revolutes. What may be in line tell a model's kinds of
-//! element to the compiler; a model of every kind, whose size is known at run time, goes the long way.
+//! `(model, ends) => records, added to the wrenches`. The kind of a group and the location of its parts need no lookup:
+//! for most mechanisms, whose joints are all revolutes. Whether a model may be uniform is known at compile time from
+//! its kinds of element; a model of every kind, whose size is known at run time, takes the general path.
 
 use crate::body::BodyState;
 use crate::elements::element::Law;
@@ -14,8 +14,8 @@ use crate::model::{Group, ModelRef, Terms};
 use crate::pose::{End, Places};
 use crate::space::Space as _;
 
-/// The kind of all groups of a model with these kinds of element, as far as they tell: its law, stars
-/// and arms.
+/// The kind of all groups of a model with these kinds of element, as far as they determine it: its law, spring triples
+/// and legs.
 const fn kind<P: Geometry, T: Terms<P>>(planar: bool) -> Option<(Law, usize, usize)> {
     let others = T::LINES || T::UNIVERSALS || T::CLEARANCES || T::INPUTS;
     match (T::TSDAS, T::BUSHINGS, T::REVOLUTES) {
@@ -28,12 +28,12 @@ const fn kind<P: Geometry, T: Terms<P>>(planar: bool) -> Option<(Law, usize, usi
     }
 }
 
-/// Whether a model of these kinds of element may be in line.
+/// Whether a model with these kinds of element may be uniform.
 pub(super) const fn may_be<P: Geometry, T: Terms<P>>() -> bool {
     kind::<P, T>(P::Space::PLANAR).is_some()
 }
 
-/// Whether the groups of a model are in line, each to a body.
+/// Whether the groups of a model are uniform, each on a body.
 pub(crate) fn are_in_line<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>) -> bool {
     let Some((law, stars, arms)) = kind::<P, T>(P::Space::PLANAR) else { return false };
     let is_next = |(i, group): (usize, &Group)| {
@@ -69,10 +69,10 @@ pub(super) fn add<P: Geometry, T: Terms<P>, D: Dampers>(
     }
 }
 
-/// Where the bodies are, and how they move.
+/// Poses and velocities of the bodies.
 type Where<'s, P> = (Places<'s, P>, &'s [BodyState<P>]);
 
-/// Stars that share their points of B.
+/// Spring triples with common points of B.
 #[inline(always)]
 fn add_stars<
     P: Geometry,
@@ -121,7 +121,7 @@ fn add_stars<
     }
 }
 
-/// A point of either body and one element.
+/// A point of each body and one element.
 #[inline(always)]
 fn add_pairs<P: Geometry, T: Terms<P>, D: Dampers, L: TwoPoints<P>>(
     model: &ModelRef<'_, P, T>,
@@ -164,7 +164,7 @@ mod tests {
     use crate::planar::Planar64;
     use crate::space::Linear as _;
 
-    /// The wrenches of a model in line, and the long way.
+    /// The wrenches of a uniform model by both paths.
     fn both_ways<M: ModelOwner>(model: &M) -> [M::PerBody<Wrench<SpaceOf<M>>>; 2] {
         let view = model.view();
         [true, false].map(|in_line| {
@@ -192,7 +192,7 @@ mod tests {
         })
     }
 
-    /// A body on the ground and one on it, with the elements of a kind between them.
+    /// A body on the ground and another on it, with the elements of a kind between them.
     macro_rules! assert_same {
         ($geometry:ident, $model:ty, $kind:expr, $tsdas:expr, $bushings:expr, $revolutes:expr) => {{
             let (law, stars, arms) = $kind;

@@ -1,7 +1,7 @@
-//! The forces and torques of inputs, added after all else, in ascending order.
+//! The forces and torques of inputs, added after all others, in ascending order.
 //!
-//! `(inputs, signals, frames) => wrenches`, torques in body axes. What is there without them is kept beside, so that an
-//! input that is set costs no evaluation of the pose. An anchor moves points instead, see [`crate::pose`].
+//! `(inputs, signals, frames) => wrenches`, torques in body axes. The wrenches without inputs are stored separately, so
+//! that setting an input needs no evaluation of the pose. An anchor moves points instead, see [`crate::pose`].
 
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
@@ -34,7 +34,7 @@ fn bodies_of<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// Keeps the wrenches as they are before [`push`].
+/// Stores the wrenches before [`push`].
 #[inline(always)]
 pub(crate) fn keep<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
@@ -50,7 +50,7 @@ pub(crate) fn keep<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// Takes the wrenches back to what they were before [`push`].
+/// Restores the wrenches from before [`push`].
 #[inline(always)]
 pub(crate) fn take_back<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
@@ -132,7 +132,7 @@ pub(crate) fn push<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// What an actuator of the tension `value` \[N\] does to the two bodies of its TSDA.
+/// The forces of an actuator of tension `value` \[N\] on the two bodies of its TSDA.
 #[inline(always)]
 fn actuator<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
@@ -149,7 +149,7 @@ fn actuator<P: Geometry, T: Terms<P>>(
     Some(Record { force, torque_a, torque_b: element.arm_b.cross(force) })
 }
 
-/// A group's `force` \[N\] on its first body with that of its actuators, world axes.
+/// A group's `force` \[N\] on its first body including its actuators, world axes.
 #[inline(always)]
 pub(crate) fn with_actuators<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,

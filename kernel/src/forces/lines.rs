@@ -9,8 +9,8 @@ use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
 use crate::space::{Linear as _, Vector as _};
 
-/// A group of points on lines. Twice the same, as with a revolute's stars: where the lines are the ground's
-/// and the points a body's, as along a rail, none of them asks; not in models of every kind, of which few have any.
+/// A group of points on lines. Duplicated, as for a revolute: with lines on the ground and points on a body, as on a
+/// rail, no point is tested for its owner; not in models of every kind, few of which have any.
 #[inline(always)]
 pub(super) fn lines<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -24,8 +24,8 @@ pub(super) fn lines<P: Geometry, T: Terms<P>, D: Dampers>(
     }
 }
 
-/// Star by star. The force on A acts at the foot: its torque is that of the star's whole pull at the
-/// line's point and of each pull along its slide.
+/// Triple by triple. The force on A acts at the foot: its torque is that of the triple's total force at the line's
+/// point and of each force along its slide.
 #[inline(always)]
 fn walk<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -49,7 +49,7 @@ fn walk<P: Geometry, T: Terms<P>, D: Dampers>(
     };
     let clearance = model.clearance(group);
     for centre in centres {
-        // A part of the list and no counted elements: these would be a division per group.
+        // Slices of the list instead of element counts, which would need a division per group.
         let Some((own, others)) = tips.split_at_checked(arms) else { break };
         tips = others;
         let (centre, arm) = end_a.place(centre);

@@ -1,14 +1,13 @@
-//! One force evaluation: every element once, every body's wrench.
+//! One force evaluation: visits every element once and sums every body's wrench.
 //!
-//! `(model, pose, velocities, turn counts, step) => wrenches`. The order of sums, which is part
-//! of the bits: a body starts from its weight, or from nothing where a precision lets bodies fall otherwise
-//! ([`Geometry::FALLS`]), then adds its loads in ascending order, then the records of its groups likewise, then its torsion
-//! springs', then those of its laws, table by table, and last, its torque in body axes, its inputs in ascending order.
-//! Within a TSDA group each distinct point is placed once; the pulls on a point are added in
-//! the order of its elements; the record's force and torque on A add star by star, the torque
-//! on B arm by arm. Where a precision keeps stars at rest, the pulls of two stars add in the axes of B, and a
-//! torque is the first's arm times both and the way to the second times its own. Forces and torques are in world axes; a body's torque is turned into body
-//! axes once, at the end.
+//! `(model, pose, velocities, revolution counts, step) => wrenches`. The order of sums, on which the bits depend: a
+//! body starts from its weight, or from zero where a precision applies gravity to velocities ([`Geometry::FALLS`]),
+//! then adds its loads in ascending order, then the records of its groups likewise, then its torsion springs', then
+//! those of its laws, table by table, and last, in body axes, its inputs in ascending order. Within a TSDA group each
+//! distinct point is computed once; the forces on a point are added in the order of its elements; the record's force
+//! and torque on A add triple by triple, the torque on B leg by leg. Where a precision stores reference TSDAs, the
+//! forces of two triples add in the axes of B, and the torque is τ = r1 × (f1 + f2) + (r2 − r1) × f2. Forces and
+//! torques are in world axes; a body's torque is transformed to body axes once, at the end.
 
 mod bushing;
 mod directions;
@@ -45,7 +44,7 @@ use crate::space::Linear as _;
 use crate::state::State;
 use crate::status::Cause;
 
-/// What acts in a step, and the states it acts on.
+/// The inputs of an evaluation: what acts in a step, and the states.
 pub(crate) struct Instant<'s, P: Geometry> {
     /// The number of the step.
     pub(crate) step: u64,
@@ -55,30 +54,30 @@ pub(crate) struct Instant<'s, P: Geometry> {
     pub(crate) signals: &'s [Signal<P::Real>],
     /// One per body.
     pub(crate) bodies: &'s [BodyState<P>],
-    /// One per TSDA where the precision keeps any; groups without it go the long way.
+    /// One per TSDA where the precision stores any; groups without it take the general path.
     pub(crate) rests: &'s [P::Rest],
     /// Whether the groups [`are_in_line`].
     pub(crate) in_line: bool,
-    /// Whether the frames are those of the pose.
+    /// Whether the frames are up to date with the pose.
     pub(crate) placed: bool,
 }
 
-/// What an evaluation writes, one of each per body.
+/// The results of an evaluation, one of each per body.
 pub(crate) struct Evaluation<'s, P: Geometry> {
     /// The frames of the pose.
     pub(crate) frames: &'s mut [P::Frame],
     /// The wrenches.
     pub(crate) wrenches: &'s mut [Wrench<P::Space>],
-    /// Where the wrenches without inputs are kept, one per input, or nothing.
+    /// The wrenches without inputs, one per input, or empty.
     pub(crate) unpushed: &'s mut [Unpushed<P::Space>],
 }
 
-/// The wrenches on all bodies in a state, dampers and loads included, for steps of `step_size`
-/// \[s\] (loads act in whole steps).
+/// The wrenches on all bodies in a state, dampers and loads included, for steps of `step_size` \[s\] (loads act in
+/// whole steps).
 ///
 /// # Errors
-/// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined, [`Cause::Undefined`] the first
-/// law that is.
+/// [`Cause::UndefinedTwist`] names the first torsion spring whose torsion angle is undefined, [`Cause::Undefined`] the
+/// first such law.
 pub fn wrenches<M: ModelOwner>(
     model: &M,
     state: &State<M>,
@@ -116,13 +115,13 @@ pub fn wrenches<M: ModelOwner>(
     Ok(wrenches)
 }
 
-/// One force evaluation: `(model, instant, memories) => frames, wrenches, settled memories`. No weights
-/// where [`Geometry::FALLS`].
+/// One force evaluation: `(model, instant, memories) => frames, wrenches, updated memories`. Without weights where
+/// [`Geometry::FALLS`].
 ///
 /// # Errors
-/// [`Cause::UndefinedTwist`] names the first torsion spring whose twist is undefined, [`Cause::Undefined`] the first
-/// law that is.
-// One caller per scheme, which is handed the stepper alone: arguments in structs cost no stack.
+/// [`Cause::UndefinedTwist`] names the first torsion spring whose torsion angle is undefined, [`Cause::Undefined`] the
+/// first such law.
+// One caller per scheme, which gets only the stepper: arguments in structs cost no stack.
 #[inline(always)]
 pub(crate) fn evaluate<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -182,7 +181,7 @@ pub(crate) fn evaluate_out_of_line<P: Geometry, T: Terms<P>, D: Dampers>(
     evaluate::<P, T, D>(model, instant, memories, out)
 }
 
-/// The record of one group, `None` where the model lacks what it names.
+/// The record of one group, `None` where the model lacks a part that it refers to.
 #[inline(always)]
 pub(crate) fn record<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -210,7 +209,7 @@ pub(crate) fn record<P: Geometry, T: Terms<P>, D: Dampers>(
     }
 }
 
-/// What loads and inputs push from outside, the rates of moved ground included; torques in body axes.
+/// The external forces of loads and inputs, including the rates of moved ground; torques in body axes.
 #[inline(always)]
 pub(crate) fn pushed<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
@@ -231,7 +230,7 @@ pub(crate) fn pushed<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// What loads and inputs push by themselves; torques in body axes.
+/// The forces of loads and inputs only; torques in body axes.
 pub(crate) fn push_loads_and_inputs<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     windows: &[LoadWindow],
@@ -248,7 +247,7 @@ pub(crate) fn push_loads_and_inputs<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// Weight in a field of gravity and loads.
+/// Weight and loads.
 #[inline(always)]
 fn start<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
@@ -261,7 +260,7 @@ fn start<P: Geometry, T: Terms<P>>(
     for (body, wrench) in model.bodies.iter().zip(wrenches.iter_mut()) {
         let force = match field {
             Some(gravity) => gravity::weight(body.mass, gravity),
-            // It changes nothing when it is added, and is no bits of zero, which would be cleared by a call.
+            // Negative zero changes nothing when it is added, and avoids a call that clears memory.
             None if P::FALLS => -P::Vector::ZERO,
             None => P::Vector::ZERO,
         };

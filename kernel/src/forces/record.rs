@@ -1,4 +1,4 @@
-//! What the laws' files and the evaluation share: how dampers and memories are taken.
+//! Parameters common to the laws' files and the evaluation: the treatment of dampers and memories.
 
 use crate::geometry::Geometry;
 use crate::model::{StatesIn, Terms};
@@ -8,11 +8,11 @@ pub use crate::record::{Record, Wrench};
 
 /// Whether the dampers' forces are part of an evaluation.
 pub trait Dampers {
-    /// What of them matters to an evaluation: those that do the same there are one type.
+    /// The relevant part for an evaluation: damper types with equal forces map to one type.
     type Forces: Dampers;
     /// Whether they act.
     const ACT: bool;
-    /// Whether what is left of them acts joint by joint.
+    /// Whether the remaining dampers act joint by joint.
     const JOINT_WISE: bool = false;
 }
 
@@ -25,7 +25,7 @@ impl Dampers for ExplicitDampers {
     const ACT: bool = true;
 }
 
-/// Dampers are left to the sweeps of [`crate::damping`].
+/// Dampers are left to the damper passes of [`crate::damping`].
 #[derive(Clone, Copy, Debug)]
 pub struct DampersLeft;
 
@@ -34,7 +34,7 @@ impl Dampers for DampersLeft {
     const ACT: bool = false;
 }
 
-/// Dampers are left to the joints' levers of [`crate::damping`].
+/// Dampers are left to the joints' damping modes of [`crate::damping`].
 #[derive(Clone, Copy, Debug)]
 pub struct DampersOfJoints;
 
@@ -44,24 +44,24 @@ impl Dampers for DampersOfJoints {
     const JOINT_WISE: bool = true;
 }
 
-/// Where in a step an evaluation stands.
+/// The position of an evaluation in a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum At {
-    /// Near a step's boundary, at least once per step: turn counts are settled.
+    /// Near a step's boundary, at least once per step: revolution counts are updated.
     Boundary,
-    /// Anywhere else: turn counts are only read.
+    /// Anywhere else: revolution counts are only read.
     Stage,
 }
 
-/// What elements remember, in an evaluation.
+/// The memories of elements during an evaluation.
 pub(crate) struct Memories<'s, P: Geometry, T: Terms<P>> {
-    /// The turn counts, one per torsion spring.
+    /// The revolution counts, one per torsion spring.
     pub(crate) turns: &'s mut [i32],
-    /// Those of the laws.
+    /// The memories of the laws.
     pub(crate) laws: &'s mut StatesIn<P, T>,
-    /// Whether to settle them.
+    /// Whether they are updated.
     pub(crate) at: At,
-    /// \[s\] the step to bring the laws' on by before that.
+    /// \[s\] the step by which the laws' memories advance before that.
     pub(crate) advance: Option<P::Real>,
 }

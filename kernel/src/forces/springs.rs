@@ -1,6 +1,6 @@
-//! TSDAs between points of A, the centres of stars, and points of B that they share.
+//! TSDAs between points of A, the centres of spring triples, and common points of B.
 //!
-//! `(points, ends) => record`. Counts are known to the compiler: nothing is left of loops and lists.
+//! `(points, ends) => record`. Counts are compile-time constants: loops and lists are eliminated.
 
 use crate::elements::tsda::Tsda;
 use crate::forces::record::Record;
@@ -10,15 +10,15 @@ use crate::reach::{AtRest, Beside, Beyond, Reach};
 use crate::real::Real;
 use crate::space::{Linear, Space as _, Vector as _};
 
-/// The sum in ascending order. From the first term on: a start from 0 would cost an addition, and
-/// what records are added to is never −0, so that the sign of a zero is no matter.
+/// The sum in ascending order, starting with the first term: a start from 0 would cost an addition, and what records
+/// are added to is never −0, so the sign of a zero does not matter.
 #[inline(always)]
 fn sum<V: Linear>(terms: &[V]) -> V {
     let Some((&first, others)) = terms.split_first() else { return V::ZERO };
     others.iter().fold(first, |sum, &term| sum + term)
 }
 
-/// What a block has at an arm of a star: as counts are known to the compiler, none is looked for.
+/// The entry of a block for a leg of a triple: with constant counts there is no search.
 #[inline(always)]
 fn at<T: Copy + Default, const STARS: usize, const ARMS: usize>(
     block: &[[T; ARMS]; STARS],
@@ -27,7 +27,7 @@ fn at<T: Copy + Default, const STARS: usize, const ARMS: usize>(
     block.get(star).and_then(|arms| arms.get(arm)).copied().unwrap_or_default()
 }
 
-/// What pulls at the points of a block.
+/// The springs at the points of a block.
 pub(super) struct Springs<'m, P: Geometry, const STARS: usize, const ARMS: usize> {
     pub(super) springs: &'m [[Tsda<P::Real>; ARMS]; STARS],
     pub(super) rests: Option<&'m [[P::Rest; ARMS]; STARS]>,
@@ -36,7 +36,7 @@ pub(super) struct Springs<'m, P: Geometry, const STARS: usize, const ARMS: usize
 }
 
 impl<P: Geometry, const ARMS: usize> Springs<'_, P, 1, ARMS> {
-    /// Adds what the springs of one star pull to a record of stars before it.
+    /// Adds the forces of one triple's springs to a record of the triples before it.
     #[inline(always)]
     pub(super) fn add(
         &self,
@@ -59,7 +59,7 @@ impl<P: Geometry, const ARMS: usize> Springs<'_, P, 1, ARMS> {
 }
 
 impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, ARMS> {
-    /// What they pull between two ends: written out, each sum from its first term.
+    /// Their record between two ends: unrolled, each sum starting with its first term.
     #[inline(always)]
     pub(super) fn record(
         &self,
@@ -78,7 +78,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         let (pulls_a, torque_b) = if STARS == 1 && P::Space::PLANAR {
             self.all_arms(&spots, tips, end_a, end_b)
         } else {
-            // A point of B at a time, for all stars: what it takes is in registers, and forgotten with it.
+            // One point of B at a time, for all triples: its data stay in registers.
             let (mut pulls_a, mut torque_b) = self.arm(0, &tips[0], &spots, end_a, end_b);
             for arm in 1..ARMS {
                 let Some(tip) = tips.get(arm) else { break };
@@ -97,8 +97,8 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         Record { force: sum(&pulls_a), torque_a: sum(&torques_a), torque_b }
     }
 
-    /// [`Self::record`] by how far the stars' centres are from where they rest in B. What pulls along a line
-    /// that leads to the centre turns B as if it pulled there.
+    /// [`Self::record`] from the offsets of the triples' centres from their reference positions in B. A force along a
+    /// line through the centre has the same torque on B as if it acted there.
     #[inline(always)]
     fn beside_rest(
         &self,
@@ -123,7 +123,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
             let (torque_a, torque_b) = (end_a.moment(arm_a, force), end_b.moment(arm_b, force));
             return Record { force, torque_a, torque_b };
         };
-        // What the other is beside the first is the same in either body but for what they give way.
+        // The second triple's position relative to the first is the same in both bodies up to their deflection.
         let Beyond { off: by, way } =
             P::beyond((a, [centre, other]), (b, tip), [of_first, of_other]);
         let off = off + end_b.to_axes(by);
@@ -138,7 +138,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         }
     }
 
-    /// What a star pulls its centre by that is `off` from where it rests; in the axes of B.
+    /// The force of a triple on its centre with the offset `off` from its reference position; in the axes of B.
     #[inline(always)]
     fn star(
         &self,
@@ -153,7 +153,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         }
     }
 
-    /// A star of springs alone.
+    /// A triple of springs without dampers or clearance.
     #[inline(always)]
     fn star_of_springs(&self, star: usize, rests: &[P::Rest; ARMS], off: P::Vector) -> P::Vector {
         let mut at_rest = [AtRest::default(); ARMS];
@@ -171,7 +171,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         }
     }
 
-    /// The same far off. Apart: what nearly always is near has the registers for itself.
+    /// The same far from the reference. Not inlined: the near case, which is nearly always taken, keeps its registers.
     #[cold]
     #[inline(never)]
     fn star_far_off(
@@ -186,7 +186,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         sum(&Tsda::pulls(springs, &reaches))
     }
 
-    /// The same where dampers act or there is a clearance; its arms in world axes.
+    /// The same with dampers or a clearance; its lever arms in world axes.
     #[inline(always)]
     fn star_of_any(
         &self,
@@ -209,7 +209,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         sum(&self.pulls(each, &reaches, &rates))
     }
 
-    /// The pulls of all stars at a point of B, and the torque on it.
+    /// The forces of all triples at a point of B, and the torque on it.
     #[inline(always)]
     fn arm(
         &self,
@@ -237,7 +237,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         (pulls, end_b.moment(tip_arm, sum(&pulls)))
     }
 
-    /// The same at all points of B: in the plane they are few enough for the registers to hold.
+    /// The same at all points of B: in the plane they fit into registers.
     #[inline(always)]
     fn all_arms(
         &self,
@@ -265,8 +265,7 @@ impl<P: Geometry, const STARS: usize, const ARMS: usize> Springs<'_, P, STARS, A
         ([sum(&pulls); STARS], sum(&torques))
     }
 
-    /// The pulls of springs, each a star's at a point of B, at their reaches and, where dampers act,
-    /// rates.
+    /// The forces of springs, one per triple at a point of B, from their displacements and, where dampers act, rates.
     #[inline(always)]
     fn pulls<const N: usize>(
         &self,

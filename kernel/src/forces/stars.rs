@@ -1,12 +1,11 @@
-//! Stars of TSDAs: a point of A joined to one or three points of B.
+//! Spring triples of TSDAs: a point of A joined to one or three points of B.
 //!
-//! `(group, ends) => record`. Each distinct point is placed once; the pulls on a point of B are
-//! added in the order of its elements; force and torque on A add star by star, the torque on B arm
-//! by arm.
+//! `(group, ends) => record`. Each distinct point is computed once; the forces on a point of B are added in the order
+//! of its elements; force and torque on A add triple by triple, the torque on B leg by leg.
 //!
-//! What nearly every group is, two stars that share three points or one star, goes the straight line of
-//! [`block`]: its counts are known to the compiler, so that nothing is left of loops, bounds and lists.
-//! [`rare`] takes the rest.
+//! Nearly every group has two triples with three common points or one triple and takes the specialised path of
+//! [`block`]: its counts are compile-time constants, which eliminates loops, bounds and lists. [`rare`] handles the
+//! rest.
 
 use crate::elements::tsda::Tsda;
 use crate::forces::record::{Dampers, Record};
@@ -17,7 +16,7 @@ use crate::pose::{End, MOST_ARMS, Places};
 use crate::real::Real as _;
 use crate::space::{Linear, Space, Vector as _};
 
-/// A group of TSDA stars.
+/// A group of TSDA triples.
 #[inline(always)]
 pub(super) fn stars<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -44,9 +43,9 @@ pub(super) fn stars<P: Geometry, T: Terms<P>, D: Dampers>(
     }
 }
 
-/// What few groups are. More ways beside the usual ones cost those registers, 3 % of a step of a chain of
-/// balls: so [`apart`] is for models alone that have points on lines, too, whose joints are of several kinds; not for
-/// those of every kind, whose size is known at run time: on a PC it costs these 2 % in single precision.
+/// Uncommon groups. More paths beside the common ones cost those registers, 3 % of a step of a chain of balls: so
+/// [`apart`] is used only in models that have points on lines, too, whose joints are of several kinds; not in those of
+/// every kind, whose size is known at run time: on a PC it costs these 2 % in single precision.
 #[inline(always)]
 fn rare<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -62,7 +61,7 @@ fn rare<P: Geometry, T: Terms<P>, D: Dampers>(
     }
 }
 
-/// The TSDAs of a model at rest, by its bodies' frames at the start.
+/// The reference TSDAs of a model, from its bodies' initial frames.
 pub(crate) fn find_rests<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     frames: &[P::Frame],
@@ -92,8 +91,8 @@ pub(crate) fn find_rests<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// A revolute's stars. Twice the same: where an end is known to be a body or the ground, none of its
-/// points asks. The ground is nearly always the first.
+/// A revolute's triples. Duplicated: where an end is known to be a body or the ground, no point is tested for its
+/// owner. The ground is nearly always the first.
 #[inline(always)]
 fn straight<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
@@ -102,7 +101,7 @@ fn straight<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
 ) -> Option<Record<P::Space>> {
-    // Ground that an input moves is asked for at each point, or goes the long way: see [`rare`].
+    // Ground moved by an input is tested for at each point, or takes the general path: see [`rare`].
     if T::LINES && !T::ALL {
         return match (end_a.body(), end_a.still()) {
             (Some(a), _) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
@@ -116,7 +115,7 @@ fn straight<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS
     }
 }
 
-/// `STARS` stars that share `ARMS` points of B. `None` where the model lacks them.
+/// `STARS` triples with `ARMS` common points of B. `None` where the model lacks them.
 #[inline(always)]
 fn block<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
@@ -131,15 +130,15 @@ fn block<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS: u
     pull::<P, T, D, STARS, ARMS>(model, group, (points, springs, rests), end_a, end_b)
 }
 
-/// The points of stars, their springs, and these at rest where the precision keeps any.
+/// The points of triples, their springs, and the reference TSDAs where the precision stores any.
 type Parts<'m, P, const STARS: usize, const ARMS: usize> = (
     &'m [<P as Geometry>::Local],
     &'m [[Tsda<<P as Geometry>::Real>; ARMS]; STARS],
     Option<&'m [[<P as Geometry>::Rest; ARMS]; STARS]>,
 );
 
-/// What `STARS` stars that share `ARMS` points of B pull: written out, each sum from its first term.
-/// `None` where the model lacks some of it.
+/// The record of `STARS` triples with `ARMS` common points of B: unrolled, each sum starting with its first term.
+/// `None` where the model lacks a part.
 #[inline(always)]
 pub(super) fn pull<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
@@ -152,7 +151,7 @@ pub(super) fn pull<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, con
     let tips: &[_; ARMS] = tips.first_chunk()?;
     let clearance = model.clearance(group);
     Some(match group.damper.row() {
-        // Apart: what has dampers is not asked for each spring.
+        // Separate: damping is not tested for each spring.
         Some(row) if D::ACT && T::DAMPERS => {
             let dampers = Some(grid(model.dampers, row)?);
             let springs = Springs::<P, _, _> { springs, rests, dampers, clearance };
@@ -174,8 +173,8 @@ pub(super) fn grid<V, const N: usize, const M: usize>(
     all.get(first..first + N * M)?.as_chunks().0.first_chunk()
 }
 
-/// Any number of stars with `ARMS` points of their own each, as a fixed joint has: as [`many`], but what is
-/// known of them is not asked at each point.
+/// Any number of triples with `ARMS` separate points of B each, as in a fixed joint: as [`many`], but without tests at
+/// each point.
 #[inline(always)]
 fn apart<P: Geometry, T: Terms<P>, D: Dampers, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
@@ -199,7 +198,7 @@ fn apart<P: Geometry, T: Terms<P>, D: Dampers, const ARMS: usize>(
     Some(record)
 }
 
-/// Any number of stars, which share their points of B or have their own.
+/// Any number of triples with common or separate points of B.
 #[inline(always)]
 fn many<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -260,7 +259,7 @@ mod tests {
     const FIRST: BodyIndex = BodyIndex(0);
     const SECOND: BodyIndex = BodyIndex(1);
 
-    /// Two stars share their points.
+    /// Two triples with common points.
     fn group(between: [BodyIndex; 2], stars: u8, arms: u8) -> Group {
         Group {
             law: Law::Tsda,
@@ -276,7 +275,7 @@ mod tests {
         }
     }
 
-    /// Both ways of one group, in a pose and motion without any symmetry.
+    /// Both paths for one group, in a pose and motion without any symmetry.
     fn both_ways<D: Dampers>(group: Group, coincident: bool) -> [Record<f64>; 2] {
         let spring = |i: i32| Tsda {
             stiffness: 1e4 + 37.0 * f64::from(i),
@@ -332,7 +331,7 @@ mod tests {
         [straight, many::<F64, _, D>(&view, &group, &a, &b).unwrap()]
     }
 
-    /// The moment that the ground takes is no one's.
+    /// The moment on the ground is not compared.
     fn assert_same(group: Group, [straight, long]: [Record<f64>; 2]) {
         assert_eq!(straight.force, long.force, "{group:?}");
         assert!(group.a.is_world() || straight.torque_a == long.torque_a, "{group:?}");
@@ -352,7 +351,7 @@ mod tests {
                 }
             }
         }
-        // Where points coincide there is no direction, and the others pull on.
+        // Where points coincide there is no direction; the other springs still act.
         let group = group([FIRST, SECOND], 2, 3);
         let [straight, long] = both_ways::<DampersLeft>(group, true);
         assert_same(group, [straight, long]);

@@ -1,6 +1,6 @@
 //! Torsion springs, summed after all groups.
 //!
-//! `(springs, orientations, turn counts) => torques; turn counts, settled near a step's boundary`.
+//! `(springs, orientations, revolution counts) => torques; revolution counts, updated near a step's boundary`.
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
@@ -34,7 +34,7 @@ pub(super) fn torsions<P: Geometry, T: Terms<P>, D: Dampers>(
         if settle {
             *turns = since.settled(*turns);
         }
-        // A damper alone: it acts elsewhere.
+        // A pure damper acts elsewhere.
         let zero = P::Real::ZERO;
         let slack = spring.stiffness.equals(zero) & spring.preload.equals(zero);
         if !D::ACT && slack.all() {

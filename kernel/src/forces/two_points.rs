@@ -1,16 +1,15 @@
 //! Elements between a point of A and one of B.
 //!
-//! `(group, ends) => record`. The walk from a group to its points is one for all of them; what they do
-//! there, a law says by [`TwoPoints`].
+//! `(group, ends) => record`. The loop from a group to its points is common to all of them; [`TwoPoints`] is the law.
 
 use crate::forces::record::{Dampers, Record};
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::End;
 
-/// What a law does between two points.
+/// A law between two points.
 pub(super) trait TwoPoints<P: Geometry> {
-    /// Its record, with `damping` where dampers act. Inlined: what an end is known to be is known to it.
+    /// Its record, with `damping` where dampers act. Inlined, so that it is specialised for the ends.
     fn record(
         &self,
         points: &[P::Local; 2],
@@ -20,8 +19,8 @@ pub(super) trait TwoPoints<P: Geometry> {
     ) -> Record<P::Space>;
 }
 
-/// The record of a group of one of the model's `elements`. Two bodies, or the ground and a body, go a
-/// straight line: none asks whose a point is.
+/// The record of a group of one of the model's `elements`. Two bodies, or the ground and a body, take the specialised
+/// path: no point is tested for its owner.
 #[inline(always)]
 pub(super) fn two_points<P: Geometry, T: Terms<P>, D: Dampers, L: TwoPoints<P>>(
     model: &ModelRef<'_, P, T>,

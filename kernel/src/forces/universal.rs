@@ -1,6 +1,6 @@
 //! Universal joints without a spider.
 //!
-//! `(points, ends) => record`. The force at the points, then the torque of the lean.
+//! `(points, ends) => record`. The force at the points, then the torque of the axis error.
 
 use crate::elements::universal::{Lean, Universal};
 use crate::forces::record::Record;

@@ -1,7 +1,7 @@
 //! The guaranteed bound, body by body.
 //!
-//! `(model, pose) => per body its block of the mass-scaled stiffness => λ_max`. Every mount is
-//! visited once and adds to the blocks of its two bodies, in the order of each body's sums.
+//! `(model, pose) => per body its block of the mass-scaled stiffness => λ_max`. Every mount is visited once and adds to
+//! the blocks of its two bodies, in the order of each body's sums.
 
 use crate::body::{Body, BodyState};
 use crate::elements::input::InputKind;
@@ -22,12 +22,12 @@ type Block<R> = [[R; 6]; 6];
 /// Squarings of the block: `λ_max ≤ trace(S^n)^(1/n)`, n = 2^8, exceeds it by 6^(1/256) at most.
 const SQUARINGS: usize = 8;
 
-/// What rounding may take from a bound, in either precision, is given back.
+/// Compensates the rounding of a bound, in either precision.
 const ROUNDING_MARGIN: f64 = 1.0 + 1e-6;
 
-/// An upper bound of the highest angular frequency \[rad/s\] at the pose of `state`; 0 for a model
-/// without springs. At most 0.4 % above the exact block bound. Each element is placed once per body
-/// that it holds, and each body's block is kept until all are: 148 bytes per body of a spatial model in single precision.
+/// An upper bound of the highest angular frequency \[rad/s\] at the pose of `state`; 0 for a model without springs. At
+/// most 0.4 % above the exact block bound. Points of each element are computed once per body, and each body's block is
+/// stored until all are complete: 148 bytes per body of a spatial model in single precision.
 pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
     let view = model.view();
     let bodies = state.bodies.as_ref();
@@ -51,7 +51,7 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
             largest = eigenvalue;
         }
     }
-    // Of a positive matrix of two blocks λ_max is at most the sum of theirs.
+    // λ_max of a positive matrix of two blocks is at most the sum of theirs.
     let mut own = RealOf::<M>::ZERO;
     view.laws.look_at_all(&state.laws, &mut |_, law| {
         let square = law.inner_square();
@@ -62,7 +62,7 @@ pub fn bound<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
     (largest + own).sqrt()
 }
 
-/// The square of the bound of what is mounted to one body, 0 where there is none.
+/// The square of the bound for the mounts of one body, 0 without any.
 pub(crate) fn square_of<P: Geometry, T: Terms<P>>(
     view: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
@@ -81,7 +81,7 @@ pub(crate) fn square_of<P: Geometry, T: Terms<P>>(
     pose.eigenvalue(row, block)
 }
 
-/// What mounts add for one of their bodies.
+/// The contributions of mounts to one of their bodies.
 #[derive(Clone, Copy)]
 struct BodyBlock<R> {
     stiffness: Block<R>,
@@ -95,14 +95,14 @@ impl<R: Real> Default for BodyBlock<R> {
     }
 }
 
-/// What has a stiffness, by its row.
+/// A part with a stiffness, by its row.
 #[derive(Clone, Copy)]
 enum Mount {
     Group(usize),
     Actuator(usize),
     Torsion(usize),
     Law(usize),
-    /// A branch of a law, by its place.
+    /// A branch of a law, by its index.
     Branch(usize, usize),
 }
 
@@ -111,18 +111,18 @@ struct Pose<'s, 'm, P: Geometry, T: Terms<P>> {
     view: &'s ModelRef<'m, P, T>,
     places: Places<'s, P>,
     bodies: &'s [BodyState<P>],
-    /// Turn counts of torsion springs, memories of laws.
+    /// Revolution counts of torsion springs, memories of laws.
     memories: (&'s [i32], &'s StatesIn<P, T>),
 }
 
 impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
-    /// What laws see.
+    /// The instant, as laws see it.
     fn at(&self) -> Instant<'_, P> {
         let Places { frames, signals, .. } = self.places;
         Instant { frames, bodies: self.bodies, signals }
     }
 
-    /// Visits all that has a stiffness with its two ends, in the order of each body's sums.
+    /// Visits all parts with a stiffness with their two ends, in the order of each body's sums.
     #[inline(always)]
     fn each_mount(&self, mut visit: impl FnMut(Mount, [BodyIndex; 2])) {
         for (row, group) in self.view.groups.iter().enumerate() {
@@ -150,7 +150,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         });
     }
 
-    /// Adds what a mount does to the body `here`, one of its ends.
+    /// Adds the contribution of a mount to the body `here`, one of its ends.
     fn add(&self, mount: Mount, here: BodyIndex, to: &mut BodyBlock<P::Real>) {
         let Self { view, places, .. } = *self;
         let row = here.row();
@@ -186,7 +186,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                     if group.clearance.row().is_none() {
                         turn(block, arm, if at_a { turned.force } else { -turned.force });
                     } else {
-                        // It may pull less than it does with its clearance taken up.
+                        // Its force may be smaller than with its clearance closed.
                         let Turning { force, .. } = turned;
                         *turning = *turning + (force.dot(force) * arm.dot(arm)).sqrt();
                     }
@@ -232,7 +232,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                     let ends = law.bodies();
                     let Some(seen) = self.at().seen(ends) else { return };
                     let (end, share): (_, P::Real) = end_of(ends, here);
-                    // (Σ rᵢ)² ≤ n·Σ rᵢ²: a spring along n directions is at most n of each.
+                    // (Σ rᵢ)² ≤ n·Σ rᵢ²: a spring along n directions counts at most n times each.
                     let mut terms = P::Real::ONE;
                     law.each_branch(&seen, &mut |_, _| terms = terms + P::Real::ONE);
                     let turned = law.tangent(&seen, &mut |stiffness, direction| {
@@ -271,7 +271,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         }
     }
 
-    /// The bound of the eigenvalues of a body's block once all mounts are in it.
+    /// The bound of the eigenvalues of a body's block with all mounts.
     fn eigenvalue(&self, row: usize, block: BodyBlock<P::Real>) -> P::Real {
         let Some(body) = self.view.bodies.get(row) else { return P::Real::ZERO };
         let BodyBlock { mut stiffness, turning } = block;
@@ -282,7 +282,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
     }
 }
 
-/// Which end of a pair a body is, and by how much a spring to the other end counts.
+/// The end of a pair that a body is, and the factor of a spring to the other end.
 fn end_of<R: Real>(ends: [BodyIndex; 2], here: BodyIndex) -> (usize, R) {
     let end = usize::from(ends[0] != here);
     (end, if ends[1 - end].is_world() { R::ONE } else { R::TWO })
@@ -305,8 +305,8 @@ fn add_row<R: Real>(block: &mut Block<R>, stiffness: R, j: [R; 6]) {
     }
 }
 
-/// Adds what a force on the point of an arm, both in body axes, does to a turn φ of the body:
-/// `φᵀ·((r·F)·I − ½·(r·Fᵀ + F·rᵀ))·φ`, which is no stiffness about an axis that both lie along.
+/// Adds the effect of a force at a lever arm, both in body axes, on a rotation φ of the body:
+/// `φᵀ·((r·F)·I − ½·(r·Fᵀ + F·rᵀ))·φ`, which is 0 about an axis along which both are.
 fn add_force<S: Space>(
     block: &mut Block<S::Real>,
     body: &Body<S>,
@@ -329,11 +329,11 @@ fn add_force<S: Space>(
     }
 }
 
-/// An upper bound of the largest eigenvalue of a symmetric block, which is that by magnitude.
+/// An upper bound of the largest eigenvalue by magnitude of a symmetric block.
 fn largest_eigenvalue<R: Real>(mut block: Block<R>) -> R {
     let mut traces = [R::ZERO; SQUARINGS + 1];
     for (k, slot) in traces.iter_mut().enumerate() {
-        // Of the block itself a number that leaves squares to hold, of its squares the trace.
+        // The block is normalised so that squares are finite, its squares by the trace.
         let mut trace = R::ZERO;
         for (i, row) in block.iter().enumerate() {
             trace = trace + row[i].abs();
@@ -378,8 +378,7 @@ mod tests {
     const WORLD: BodyIndex = BodyIndex::WORLD;
     const SPRING: Spring = Spring { stiffness: 300.0, damping: 0.0, free_length: 0.1 };
 
-    /// Springs that come and go between three bodies and the world in no order, under tension, and a
-    /// wound one.
+    /// Springs in both directions between three bodies and the world in no order, under tension, and a wound one.
     const SKETCH: Sketch = Sketch::new()
         .body(2.0, [0.1, 0.2, 0.15], Start::at([0.0, 0.1, 0.2]))
         .body(1.0, [0.2, 0.1, 0.15], Start::at([0.5, -0.1, 0.3]))
@@ -392,7 +391,7 @@ mod tests {
 
     crate::model!(static MODEL: F64 = SKETCH);
 
-    /// All bodies in one pass and each by itself: the same bits, for [`crate::watch`] compares them.
+    /// All bodies in one pass and each separately: the same bits, because [`crate::watch`] compares them.
     #[test]
     fn the_bound_is_that_of_the_stiffest_body() {
         let state = State::initial(&MODEL);

@@ -1,4 +1,4 @@
-//! The branches of a law while it acts.
+//! The branches of a law during an evaluation.
 
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -27,7 +27,7 @@ impl<P: Geometry> Branches<P> {
         Self(all)
     }
 
-    /// In order; the first ones are there.
+    /// In order, the present ones first.
     #[inline(always)]
     pub(super) fn all(&self) -> &[Option<Branch<P>>] {
         &self.0
@@ -58,7 +58,7 @@ impl<P: Geometry> Branches<P> {
         }
     }
 
-    /// What they do to their bodies.
+    /// Adds their forces to their bodies.
     #[inline(always)]
     pub(super) fn apply(&self, seen: &Seen<'_, P>, wrenches: &mut [Wrench<P::Space>]) {
         for branch in self.iter() {

@@ -1,6 +1,6 @@
-//! Coordinates of a law between two bodies: a turn about an axis, a travel along one, a distance.
+//! Coordinates of a law between two bodies: a rotation about an axis, a translation along one, a distance.
 //!
-//! `(what a law sees) => value, direction; force => what it does to a turn of the bodies`. The direction is the
+//! `(state of the ends) => value, direction; force => its effect on rotations of the bodies`. The direction is the
 //! gradient of the value: its rate is the rate of the value.
 
 use crate::geometry::Geometry;
@@ -18,25 +18,26 @@ pub(super) struct Coordinate<P: Geometry> {
     way: Way<P>,
 }
 
-/// What its gradient is made of, and how that changes with the pose.
+/// The data of its gradient and of the gradient's dependence on the pose.
 enum Way<P: Geometry> {
-    /// The gradient of a turn, world.
+    /// The gradient of a rotation, world.
     Turn(P::Moment),
-    /// The axis, world; \[m\] the arm of A's point, the way from it to B's and the arm of B's point.
+    /// The axis, world; \[m\] the lever arm of A's point, the displacement from it to B's and the lever arm of B's
+    /// point.
     Travel(P::Vector, [P::Vector; 3]),
-    /// \[m\] the way, and both arms.
+    /// \[m\] the displacement, and both lever arms.
     Distance(P::Vector, [P::Vector; 2]),
 }
 
 impl<P: Geometry> Coordinate<P> {
-    /// How far B has turned in A about an axis since t = 0; `None` where that is undefined.
+    /// The angle of B in A about an axis since t = 0; `None` where that is undefined.
     #[inline(always)]
     pub(super) fn turn(seen: &Seen<'_, P>, axis: &Hinge<P::Space>, turns: Turns) -> Option<Self> {
         let (value, gradient) = axis.seen(seen)?.angle(turns);
         Some(Self { value, way: Way::Turn(seen.a.moment_to_world(gradient)) })
     }
 
-    /// How far B's point is from A's along an axis of A.
+    /// The displacement of B's point from A's along an axis of A.
     #[inline(always)]
     pub(super) fn travel(seen: &Seen<'_, P>, points: &[P::Local; 2], axis: P::Vector) -> Self {
         let ((at_a, arm), (at_b, other)) = (seen.a.place(&points[0]), seen.b.place(&points[1]));
@@ -44,14 +45,14 @@ impl<P: Geometry> Coordinate<P> {
         Self { value: axis.dot(way), way: Way::Travel(axis, [arm, way, other]) }
     }
 
-    /// How far a point that both bodies have is carried along a direction of A, world; the arm of A's point, the way from
-    /// it to B's and the arm of B's point.
+    /// A translation along a direction of A, world, of a point common to both bodies; `ways` are the lever arm of A's
+    /// point, the displacement from it to B's and the lever arm of B's point.
     #[inline(always)]
     pub(super) fn carried(value: P::Real, axis: P::Vector, ways: [P::Vector; 3]) -> Self {
         Self { value, way: Way::Travel(axis, ways) }
     }
 
-    /// How far two points are apart; without a direction where they coincide.
+    /// The distance of two points; without a direction where they coincide.
     #[inline(always)]
     pub(super) fn distance(seen: &Seen<'_, P>, points: &[P::Local; 2]) -> Self {
         let ((at_a, arm), (at_b, other)) = (seen.a.place(&points[0]), seen.b.place(&points[1]));
@@ -64,7 +65,7 @@ impl<P: Geometry> Coordinate<P> {
     pub(super) fn direction(&self, seen: &Seen<'_, P>) -> Direction<P::Space> {
         match self.way {
             Way::Turn(gradient) => seen.about(gradient),
-            // The force on A acts where B's point is: both then lie on one line.
+            // The force on A acts at B's point, so that both forces are collinear.
             Way::Travel(axis, [arm, way, other]) => {
                 seen.along(axis, [seen.a.arm_at(arm, way), other])
             }
@@ -72,8 +73,8 @@ impl<P: Geometry> Coordinate<P> {
         }
     }
 
-    /// \[N·m\] what a force along it does to a turn of A and of B at most; what it does to moves, it visits as
-    /// springs: for [`crate::laws::Interaction::tangent`].
+    /// \[N·m\] an upper bound of the effect of a force along it on a rotation of A and of B; its effect on translations
+    /// is visited as springs: for [`crate::laws::Interaction::tangent`].
     pub(super) fn bent(
         &self,
         seen: &Seen<'_, P>,
@@ -83,8 +84,9 @@ impl<P: Geometry> Coordinate<P> {
         let length = |v: P::Vector| v.dot(v).sqrt();
         match &self.way {
             Way::Turn(gradient) => [P::Real::HALF * force * gradient.dot(*gradient); 2],
-            // The axis turns with A. Of the force F, the arm r of A's point and the way d to B's, a move ξ and a turn φ
-            // of A meet 2·F·|φ|·|ξ| + F·(3·|r| + |d|)·φ² at most, and 2·|φ|·|ξ| ≤ ξ²/l + l·φ².
+            // The axis rotates with A. For the force F, the lever arm r of A's point and the displacement d to B's, a
+            // translation ξ and a rotation φ of A contribute at most 2·F·|φ|·|ξ| + F·(3·|r| + |d|)·φ², and 2·|φ|·|ξ| ≤
+            // ξ²/l + l·φ².
             Way::Travel(_, ways) => {
                 let [arm, far, other] = ways.map(length);
                 let reach = arm + far;

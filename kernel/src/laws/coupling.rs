@@ -1,13 +1,13 @@
-//! A coupling of joints: a spring and a damper of a sum of their coordinates.
+//! A coupling of joints: a spring and a damper on a weighted sum of their coordinates.
 //!
-//! `xᵢ ↦ y = Σ aᵢ·xᵢ − offset`, tension `k·dead(y)`, dead the part of y beyond half of the play on either side, and
-//! c times its rate; the tension pulls at each coordinate by its factor, so that the power is tension times the rate of y.
-//! A gear pair, a rack, a belt and a joint that mimics another have two coordinates, a differential three; with one
-//! side alone it is a tendon. What carries the axes takes the difference of the moments by itself. The damper is one
-//! along the whole sum, on up to six bodies at once, within bounds where teeth or a tendon may come apart (Shardlow 2003
-//! for two bodies).
+//! `xᵢ ↦ y = Σ aᵢ·xᵢ − offset`, tension `k·dead(y)`, dead the part of y beyond half of the backlash on either side, and
+//! c times its rate; the tension acts on each coordinate by its factor, so that the power is tension times the rate of
+//! y. A gear pair, a rack, a belt and a joint that mimics another have two coordinates, a differential three; one-sided
+//! it is a tendon. The bearings of the axes take the difference of the moments. The damper acts along the whole sum, on
+//! up to six bodies at once, bounded where teeth or a tendon may separate (Shardlow 2003 for two bodies).
 //!
-//! y goes with the coordinates from step to step: in single precision many turns leave no digits to teeth.
+//! y is updated incrementally from step to step: in single precision a large revolution count would leave no digits for
+//! the teeth.
 
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -22,31 +22,31 @@ use crate::record::Record;
 use crate::words::{WordSource, WordVisitor, Words};
 
 law! {
-    /// A sum of coordinates of up to three joints, held by a spring: gears, racks, belts, differentials, tendons.
+    /// A spring on a weighted sum of coordinates of up to three joints: gears, racks, belts, differentials, tendons.
     pub struct Coupling = "coupling" {
-        /// The coordinates, each with the factor by which it enters the sum.
+        /// The coordinates, each with its factor in the sum.
         terms: Terms,
-        /// The sum at which the spring is free.
+        /// The sum at which the tension is 0.
         offset: Number("rad") = 0.0,
         /// Tension per sum.
         stiffness: Number("N·m/rad"),
         /// Tension per rate of the sum.
         damping: Number("N·m·s/rad") = 0.0,
-        /// Play of the sum, from one flank to the other.
+        /// Backlash of the sum, from one flank to the other.
         play: Number("rad") = 0.0,
-        /// 1, or 0 where the coupling does not pull: nothing holds a sum above the offset.
+        /// 1, or 0 where the coupling does not pull: a sum above the offset has no tension.
         pulls: Number = 1.0,
-        /// 1, or 0 where the coupling does not push: nothing holds a sum below the offset.
+        /// 1, or 0 where the coupling does not push: a sum below the offset has no tension.
         pushes: Number = 1.0,
     }
 }
 
-/// What a coupling remembers: the sum at the end of the step before, and where its coordinates were.
+/// The memory of a coupling: the sum at the end of the last step, and its coordinates then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sum<R> {
-    /// Half turns of each coordinate.
+    /// Half revolutions of each coordinate.
     pub turns: [Turns; MOST_TERMS],
-    /// \[m, rad\] the coordinates, of turns the last one alone.
+    /// \[m, rad\] the coordinates, rotations within the last revolution.
     pub last: [R; MOST_TERMS],
     /// \[m, rad\] Σ aᵢ·xᵢ.
     pub sum: R,
@@ -80,7 +80,7 @@ fn of_term<P: Geometry>(term: &Term<P>, seen: &Seen<'_, P>, turns: Turns) -> Opt
     }
 }
 
-/// A coordinate with its factor, and what is seen of its bodies.
+/// A coordinate with its factor and the state of its bodies.
 struct Part<'s, P: Geometry> {
     bodies: [BodyIndex; 2],
     seen: Seen<'s, P>,
@@ -96,14 +96,14 @@ impl<P: Geometry> Part<'_, P> {
         Branch { bodies: self.bodies, direction, tension }
     }
 
-    /// \[N·m\] what a tension does to a turn of its bodies.
+    /// \[N·m\] the effect of a tension on a rotation of its bodies.
     fn bent(&self, tension: P::Real, visit: Springs<'_, P>) -> [P::Real; 2] {
         self.coordinate.bent(&self.seen, (tension * self.factor).abs(), visit)
     }
 }
 
 impl<P: Geometry> Coupling<P> {
-    /// A term by its place, of an angle near that of the step before.
+    /// A term by its index, its angle near that of the last step.
     #[inline(always)]
     fn part<'s>(
         &self,
@@ -131,7 +131,7 @@ impl<P: Geometry> Coupling<P> {
         Some(sum)
     }
 
-    /// \[m, rad\] what its spring is stretched by.
+    /// \[m, rad\] the extension of its spring.
     #[inline(always)]
     fn stretch(&self, sum: P::Real) -> P::Real {
         let (half, zero) = (P::Real::HALF * self.play, P::Real::ZERO);
@@ -147,7 +147,7 @@ impl<P: Geometry> Coupling<P> {
         Some(self.stiffness * self.stretch(self.sum(seen, memory)?))
     }
 
-    /// Whether teeth or a tendon may come apart.
+    /// Whether teeth or a tendon may separate.
     #[inline(always)]
     fn parts(&self) -> bool {
         let zero = P::Real::ZERO;
@@ -218,7 +218,7 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
         P::Real::HALF * (self.stiffness * (stretch * stretch))
     }
 
-    /// As if its teeth met.
+    /// As if its teeth were in contact.
     fn tangent(
         &self,
         seen: &Seen<'_, P>,
@@ -284,10 +284,10 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
         Wrong::unless(self.damping >= zero, "damping", "is negative", "a number ≥ 0")?;
         Wrong::unless(self.play >= zero, "play", "is negative", "a number ≥ 0")?;
         for (name, number) in [("pulls", self.pulls), ("pushes", self.pushes)] {
-            Wrong::unless(number == zero || number == one, name, "is no choice", "0 or 1")?;
+            Wrong::unless(number == zero || number == one, name, "is neither 0 nor 1", "0 or 1")?;
         }
         let acts = self.pulls == one || self.pushes == one;
-        Wrong::unless(acts, "pulls", "is 0 as `pushes` is", "1, or `pushes` 1")
+        Wrong::unless(acts, "pulls", "is 0, and so is `pushes`", "1 unless `pushes` is 1")
     }
 
     fn read(&self, quantity: usize, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> P::Real {

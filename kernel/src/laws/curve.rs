@@ -1,25 +1,25 @@
-//! A function of one number by its knots, straight between them.
+//! A piecewise linear function of one number.
 
 use crate::real::Real;
 
-/// Knots `[x, y]` with ascending x; before the first and after the last it goes on straight.
+/// Knots `[x, y]` with ascending x, extrapolated linearly before the first and after the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve<R, const N: usize> {
     /// \[units of the table\] the knots; those beyond [`Self::count`] are unused.
     pub knots: [[R; 2]; N],
-    /// How many there are, at least 2.
+    /// Their number, at least 2.
     pub count: u16,
 }
 
 impl<R: Real, const N: usize> Curve<R, N> {
-    /// The knots that mean something.
+    /// The used knots.
     #[inline(always)]
     #[must_use]
     pub fn known(&self) -> &[[R; 2]] {
         self.knots.get(..usize::from(self.count)).unwrap_or(&self.knots)
     }
 
-    /// The value and the slope at x. The cost is that of all knots, wherever x is.
+    /// The value and the slope at x. The cost is independent of x.
     #[inline(always)]
     #[must_use]
     pub fn at(&self, x: R) -> (R, R) {

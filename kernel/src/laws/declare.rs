@@ -1,11 +1,11 @@
 //! The macro that declares a law's constants.
 
-/// Declares the constants of a law: a struct over a precision, with everything that can be derived from them.
-/// What the law does is its [`Interaction`](crate::laws::Interaction), written by hand.
+/// Declares the constants of a law: a struct over a precision, with everything that can be derived from them. The law
+/// itself is its [`Interaction`](crate::laws::Interaction), written by hand.
 ///
-/// Each constant has a name, a kind of [`crate::laws`] and its units, a number perhaps a value where a scene gives
-/// none (`= 0.0`); its documentation is what scenes and pages say of it, so it is one line at least. Beside them the
-/// struct has `bodies: [BodyIndex; 2]`.
+/// Each constant has a name, a kind of [`crate::laws`] and its units, a number optionally a default (`= 0.0`); its
+/// documentation is used in the scene reference and in messages, so it must not be empty. The struct also has
+/// `bodies: [BodyIndex; 2]`.
 ///
 /// ```
 /// use dbd_kernel::laws::{Interaction, Nothing, Record, Seen};
@@ -27,7 +27,7 @@
 ///
 ///     fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
 ///         let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
-///         // Along no unit vector: the way itself, which is force over stiffness.
+///         // Not along a unit vector: the displacement itself, force over stiffness.
 ///         let way = P::displacement(&a.0, &b.0);
 ///         Some(seen.pull(&seen.along(way, [a.1, b.1]), self.stiffness))
 ///     }

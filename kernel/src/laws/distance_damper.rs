@@ -1,6 +1,6 @@
-//! A damper between two points by a table of its force over its rate: digressive, other in bump than in rebound.
+//! A damper between two points with a table of force over rate: digressive, or different in bump and rebound.
 //!
-//! Rate of the distance `v ↦ tension F(v)`, straight between knots and beyond them; see `tabled`.
+//! Rate of the distance `v ↦ tension F(v)`, linear between knots and beyond them; see `tabled`.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -11,11 +11,11 @@ use crate::real::Real;
 use crate::record::Record;
 
 law! {
-    /// A damper between two points by a table of its force over its rate: digressive, other in bump than in rebound.
+    /// A damper between two points with a table of force over rate: digressive, or different in bump and rebound.
     pub struct DistanceDamper = "distance-damper" {
         /// A point of the first body and one of the second.
         points: Points,
-        /// Tension over the rate at which the points part, 0 at rest, which never falls.
+        /// Tension over the rate at which the points separate, non-decreasing and 0 at rest.
         force: Table<16>("m/s", "N"),
     }
 }

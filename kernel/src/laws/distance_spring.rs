@@ -1,6 +1,6 @@
-//! A spring between two points by a table of its force over its extension: progressive, one-sided, preloaded.
+//! A spring between two points with a table of force over extension: progressive, one-sided, preloaded.
 //!
-//! Distance `|d| ↦ tension F(|d| − free_length)`, straight between knots and beyond them; its energy is the area.
+//! Distance `|d| ↦ tension F(|d| − free_length)`, linear between knots and beyond them; its energy is the area.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -11,13 +11,13 @@ use crate::real::Real;
 use crate::record::Record;
 
 law! {
-    /// A spring between two points by a table of its force over its extension: progressive, one-sided, preloaded.
+    /// A spring between two points with a table of force over extension: progressive, one-sided, preloaded.
     pub struct DistanceSpring = "distance-spring" {
         /// A point of the first body and one of the second.
         points: Points,
         /// Distance at which the extension is 0.
         free_length: Number("m") = 0.0,
-        /// Tension over extension, which never falls; before the first knot and after the last it goes on straight.
+        /// Tension over extension, non-decreasing; extrapolated linearly beyond the first and the last knot.
         force: Table<16>("m", "N"),
     }
 }
@@ -41,7 +41,7 @@ impl<P: Geometry> Interaction<P> for DistanceSpring<P> {
     #[inline(always)]
     fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
         let spring = self.spring(seen);
-        // Points that coincide have no line along which they could be pulled.
+        // Coincident points have no direction for a force.
         let lost = spring.coordinate.value == P::Real::ZERO && spring.tension() != P::Real::ZERO;
         (!lost).then(|| spring.record(seen))
     }

@@ -1,4 +1,4 @@
-//! Stops of a distance: a rope that slackens, spheres that touch, the ends of a shock absorber.
+//! Stops of a distance: a rope that becomes slack, spheres in contact, the ends of a shock absorber.
 //!
 //! Distance `|d| ↦ x = |d| − to` or `from − |d|`, force `k·x·(1 + a·ẋ)` back into the range, along the line of the two
 //! points: the law of [`super::EndStop`].
@@ -12,13 +12,13 @@ use crate::real::Real;
 use crate::record::Record;
 
 law! {
-    /// Two points whose distance has a range: a rope (`to`), two spheres (`from`, the sum of their radii), both.
+    /// A range of the distance of two points: a rope (`to`), two spheres (`from`, the sum of their radii), or both.
     pub struct DistanceStop = "distance-stop" {
         /// A point of the first body and one of the second.
         points: Points,
-        /// Least distance; 0 is none.
+        /// Smallest distance; 0 for no limit.
         from: Number("m") = 0.0,
-        /// Largest distance; 1e30 is none.
+        /// Largest distance; 1e30 for no limit.
         to: Number("m") = 1e30,
         /// Force per depth.
         stiffness: Number("N/m"),
@@ -43,7 +43,7 @@ impl<P: Geometry> Interaction<P> for DistanceStop<P> {
     #[inline(always)]
     fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
         let stopped = self.stopped(seen);
-        // Points that coincide have no line along which they could be pushed apart.
+        // Coincident points have no direction for a force.
         let lost = stopped.coordinate.value == P::Real::ZERO && stopped.beyond != P::Real::ZERO;
         (!lost).then(|| stopped.record(seen))
     }

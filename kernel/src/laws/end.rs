@@ -1,7 +1,7 @@
-//! What a law sees of its two bodies.
+//! The state of a law's two bodies.
 //!
-//! `(frames, orientations, velocities) => places, arms, rates, turns`. Each is computed when asked for: a law that
-//! knows no velocities leaves no code for them.
+//! `(frames, orientations, velocities) => points, lever arms, rates, rotations`. Each is computed on demand: a law
+//! without velocities has no code for them.
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
@@ -32,7 +32,7 @@ impl<P: Geometry> Clone for Instant<'_, P> {
 impl<P: Geometry> Copy for Instant<'_, P> {}
 
 impl<'s, P: Geometry> Instant<'s, P> {
-    /// What a law between two bodies sees; `None` where the second is no body.
+    /// The state of a law's two bodies; `None` where the second is not a body.
     #[inline(always)]
     #[must_use]
     pub fn seen(&self, [a, b]: [BodyIndex; 2]) -> Option<Seen<'s, P>> {
@@ -50,7 +50,7 @@ impl<'s, P: Geometry> Instant<'s, P> {
     }
 }
 
-/// A body as a law sees it.
+/// A body for a law.
 pub(crate) struct Body<'s, P: Geometry> {
     pub(crate) frame: &'s P::Frame,
     pub(crate) orientation: &'s P::Orientation,
@@ -73,7 +73,7 @@ impl<'s, P: Geometry> End<'s, P> {
         self.body.is_none()
     }
 
-    /// A point's location, and its arm \[m\] from the centre of mass in world axes, 0 for the ground's.
+    /// A point's location, and its lever arm \[m\] from the centre of mass in world axes, 0 for the ground.
     #[inline(always)]
     #[must_use]
     pub fn place(&self, local: &P::Local) -> (P::Location, P::Vector) {
@@ -83,7 +83,7 @@ impl<'s, P: Geometry> End<'s, P> {
         }
     }
 
-    /// The arm of a point `offset` \[m\] away from the point of `arm`; the ground has none.
+    /// The lever arm of a point `offset` \[m\] away from the point of `arm`; 0 for the ground.
     #[inline(always)]
     #[must_use]
     pub fn arm_at(&self, arm: P::Vector, offset: P::Vector) -> P::Vector {
@@ -111,7 +111,7 @@ impl<'s, P: Geometry> End<'s, P> {
         self.body.as_ref().map_or(m, |body| P::moment_to_world(body.frame, m))
     }
 
-    /// A moment in world axes as the body sees it; the ground sees none.
+    /// A moment in world axes in body axes; 0 for the ground.
     #[inline(always)]
     #[must_use]
     pub fn moment_to_axes(&self, m: P::Moment) -> P::Moment {
@@ -135,7 +135,7 @@ impl<'s, P: Geometry> End<'s, P> {
         self.body.as_ref().map_or(P::Moment::ZERO, spin)
     }
 
-    /// How the other end has turned in the axes of this one.
+    /// The rotation of the other end in the axes of this one.
     #[inline(always)]
     #[must_use]
     pub fn turn_of(&self, other: &Self) -> <P::Space as Space>::Turn {
@@ -144,7 +144,7 @@ impl<'s, P: Geometry> End<'s, P> {
     }
 }
 
-/// What a law sees: its first end A, which may be the ground, and its second, a body B.
+/// The two ends of a law: A, which may be the ground, and B, a body.
 pub struct Seen<'s, P: Geometry> {
     /// A.
     pub a: End<'s, P>,
@@ -154,8 +154,8 @@ pub struct Seen<'s, P: Geometry> {
 }
 
 impl<'s, P: Geometry> Seen<'s, P> {
-    /// What is seen of two other bodies; within a pass over dampers with their velocities before it. `None` where the
-    /// second is no body.
+    /// The ends of two other bodies; in a damper pass with their velocities before it. `None` where the second is not a
+    /// body.
     #[inline(always)]
     #[must_use]
     pub fn between(&self, bodies: [BodyIndex; 2]) -> Option<Seen<'s, P>> {
@@ -176,8 +176,8 @@ impl<'s, P: Geometry> Seen<'s, P> {
         self.at.signals.get(usize::from(input.0)).copied().unwrap_or_default()
     }
 
-    /// The direction along a unit vector u (world axes) between a point of A and one of B, at the ends of their
-    /// arms: its rate is `u·(v_B − v_A)`.
+    /// The direction along a unit vector u (world axes) between a point of A and one of B, at their lever arms: its
+    /// rate is `u·(v_B − v_A)`.
     #[inline(always)]
     #[must_use]
     pub fn along(&self, u: P::Vector, arms: [P::Vector; 2]) -> Direction<P::Space> {
@@ -209,7 +209,7 @@ impl<'s, P: Geometry> Seen<'s, P> {
         rate
     }
 
-    /// The record of a tension \[N, N·m\] along a direction: it pulls where it is positive, B against the direction.
+    /// The record of a tension \[N, N·m\] along a direction: a positive one pulls B against the direction.
     #[inline(always)]
     #[must_use]
     pub fn pull(&self, direction: &Direction<P::Space>, tension: P::Real) -> Record<P::Space> {

@@ -1,8 +1,8 @@
-//! End stops of a travel: a plane of A that stops a point of B, or two of them.
+//! End stops of a translation: one or two planes of A that stop a point of B.
 //!
-//! Travel `n·d ↦ F = k·x·(1 + a·ẋ)` along the normal n, x beyond the range (Hunt & Crossley, J. Appl. Mech. 42 (1975)
-//! 440, with exponent 1). The spring is a force with the energy `½·k·x²`; the rest is a damper `a·k·x` whose tension
-//! never exceeds the spring's: it never pulls.
+//! Displacement `n·d ↦ F = k·x·(1 + a·ẋ)` along the normal n, x beyond the range (Hunt & Crossley, J. Appl. Mech. 42
+//! (1975) 440, with exponent 1). The spring is a force with the energy `½·k·x²`; the rest is a damper `a·k·x` whose
+//! tension never exceeds the spring's: it never pulls.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -13,15 +13,15 @@ use crate::real::Real;
 use crate::record::Record;
 
 law! {
-    /// A point of the second body that planes of the first one stop.
+    /// A point of the second body stopped by planes of the first body.
     pub struct EndStop = "end-stop" {
-        /// A point of the first body and the point that is stopped: their travel along the normal is what has a range.
+        /// A point of the first body and the stopped point; the range applies to their distance along the normal.
         points: Points,
         /// Normal of the planes; without a range the point is free on its side of the first body's point.
         normal: Normal,
         /// Lower end of the range.
         from: Number("m") = 0.0,
-        /// Upper end of the range; 1e30 is none.
+        /// Upper end of the range; 1e30 for no limit.
         to: Number("m") = 1e30,
         /// Force per depth.
         stiffness: Number("N/m"),

@@ -1,4 +1,4 @@
-//! How B has turned in A about an axis: the twist of torsion springs, for laws about an axis.
+//! The rotation of B in A about an axis: the torsion angle of torsion springs, for laws about an axis.
 
 use crate::elements::torsion_spring::{SinceStart, TorsionSpring};
 use crate::geometry::Geometry;
@@ -8,19 +8,19 @@ use crate::real::Real;
 use crate::space::Space;
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
-/// \[½ turn\] how often a twist went past half a winding: memory of a law about an axis.
+/// \[½ revolution\] the number of half revolutions of a torsion angle: memory of a law about an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Turns(pub i32);
 
 impl Turns {
-    /// The last one alone: with it a twist is near 0 however often it went round.
+    /// Only its parity: with it a torsion angle stays near 0 at any revolution count.
     #[inline(always)]
     #[must_use]
     pub fn odd(self) -> Self {
         Self(self.0 & 1)
     }
 
-    /// \[rad\] a twist less that of [`Self::odd`].
+    /// \[rad\] a torsion angle minus that of [`Self::odd`].
     #[inline(always)]
     #[must_use]
     pub fn whole<R: Real>(self) -> R {
@@ -38,7 +38,7 @@ impl Words for Turns {
     }
 }
 
-/// An axis of A about which B turns, see [`crate::elements::torsion_spring`].
+/// An axis of A about which B rotates, see [`crate::elements::torsion_spring`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hinge<S: Space> {
     /// \[1\] unit axis in A's axes.
@@ -47,14 +47,14 @@ pub struct Hinge<S: Space> {
     pub reference: S::Turn,
 }
 
-/// A twist at a pose.
+/// A torsion angle at a pose.
 pub struct Twisted<S: Space> {
     spring: TorsionSpring<S>,
     since: SinceStart<S>,
 }
 
 impl<S: Space> Hinge<S> {
-    /// How B has turned since t = 0; `None` where its twist is undefined. Not for lanes.
+    /// The rotation of B since t = 0; `None` where its torsion angle is undefined. Not for lanes.
     #[inline(always)]
     pub fn seen<P: Geometry<Space = S>>(&self, seen: &Seen<'_, P>) -> Option<Twisted<S>> {
         let spring = TorsionSpring {
@@ -72,7 +72,7 @@ impl<S: Space> Hinge<S> {
 }
 
 impl<S: Space> Twisted<S> {
-    /// Brings a turn count to the half winding nearest the pose.
+    /// Updates a revolution count to the half revolution nearest to the pose.
     #[inline(always)]
     pub fn settle(&self, turns: &mut Turns) {
         let counts = core::slice::from_mut(&mut turns.0);
@@ -81,7 +81,8 @@ impl<S: Space> Twisted<S> {
         }
     }
 
-    /// \[rad\] the unwrapped twist since t = 0, and \[1\] its gradient with respect to a turn of B in A's axes.
+    /// \[rad\] the unwrapped torsion angle since t = 0, and \[1\] its gradient with respect to a rotation of B in A's
+    /// axes.
     #[inline(always)]
     pub fn angle(&self, turns: Turns) -> (S::Real, S::Moment) {
         match S::Real::counts(&[turns.0]).first() {
@@ -93,7 +94,7 @@ impl<S: Space> Twisted<S> {
         }
     }
 
-    /// \[1\] its gradient alone.
+    /// \[1\] its gradient only.
     #[inline(always)]
     pub fn gradient(&self) -> S::Moment {
         self.since.gradient(self.spring.axis)

@@ -1,6 +1,6 @@
-//! A damper about an axis by a table of its torque over its rate.
+//! A damper about an axis with a table of torque over rate.
 //!
-//! Rate of the twist `ω ↦ torque T(ω)` against it, along the twist's gradient; see `tabled`.
+//! Rate of the torsion angle `ω ↦ torque T(ω)` against it, along the angle's gradient; see `tabled`.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -12,17 +12,17 @@ use crate::real::Real;
 use crate::record::Record;
 
 law! {
-    /// A damper about an axis by a table of its torque over its rate.
+    /// A damper about an axis with a table of torque over rate.
     pub struct HingeDamper = "hinge-damper" {
         /// Axis of rotation.
         axis: Axis,
-        /// Torque against the rate, 0 at rest, which never falls.
+        /// Torque against the rate, non-decreasing and 0 at rest.
         torque: Table<16>("rad/s", "N·m"),
     }
 }
 
 impl<P: Geometry> HingeDamper<P> {
-    /// Its gradient alone counts: no turns.
+    /// Only its gradient is used: no revolution count.
     #[inline(always)]
     fn turn(&self, seen: &Seen<'_, P>) -> Option<Coordinate<P>> {
         Coordinate::turn(seen, &self.axis, Turns(0))

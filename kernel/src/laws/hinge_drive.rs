@@ -1,4 +1,4 @@
-//! A rotor behind a gear that turns one body relative to another: [`super::Rotor`] of the turn.
+//! A rotor behind a gear that rotates one body relative to another: [`super::Rotor`] of the rotation.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -14,37 +14,37 @@ use crate::words::{WordSource, WordVisitor, Words};
 law! {
     /// A rotation of the second body relative to the first about an axis, driven by a rotor behind a gear.
     pub struct HingeDrive = "hinge-drive" {
-        /// Axis of rotation; the angle is 0 at t = 0 and counts whole turns.
+        /// Axis of rotation; the angle is 0 at t = 0 and includes whole revolutions.
         axis: Axis,
         /// Input of the drive.
         input: Signal,
-        /// Effort per unit of the input: 1 of a torque or a force, the motor's constant of a current.
+        /// Effort per unit of the input: 1 for a torque or a force, the motor constant for a current.
         gain: Number = 0.0,
-        /// Stiffness of a servo of position.
+        /// Stiffness of a position servo.
         servo_stiffness: Number("N·m/rad") = 0.0,
-        /// Damping of a servo; constant² / resistance of a winding.
+        /// Damping of a servo; for a winding constant² / resistance.
         servo_damping: Number("N·m·s/rad") = 0.0,
-        /// Rate per unit of the input at which a servo does nothing: 1 of a velocity, 1 / constant of a voltage.
+        /// Rate per unit of the input at which the servo's effort is 0: 1 for a velocity, 1 / constant for a voltage.
         feed: Number = 0.0,
         /// Largest effort.
         most: Number("N·m") = 1e30,
-        /// Time in which the effort follows what is asked for; inductance / resistance of a winding.
+        /// Time constant of the effort; for a winding inductance / resistance.
         lag: Number("s") = 0.0,
-        /// Inertia of the rotor times the square of the ratio of the gear.
+        /// Inertia of the rotor times the square of the gear ratio.
         inertia: Number("kg·m²"),
         /// Stiffness of the gear at its output.
         stiffness: Number("N·m/rad"),
         /// Damping of the gear at its output.
         damping: Number("N·m·s/rad") = 0.0,
-        /// Play of the gear at its output, from one flank to the other.
+        /// Backlash of the gear at its output, from one flank to the other.
         play: Number("rad") = 0.0,
     }
 }
 
-/// What a drive of a turn remembers.
+/// The memory of a drive of a rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnRotor<R> {
-    /// Half turns.
+    /// Half revolutions.
     pub turns: Turns,
     /// Its rotor.
     pub rotor: Rotor<R>,
@@ -80,7 +80,8 @@ impl<P: Geometry> HingeDrive<P> {
         Gear { inertia, stiffness, damping, play, lag }
     }
 
-    /// Of an angle near that of the step before: in single precision many turns leave no digits to a gear.
+    /// Uses an angle near that of the last step: in single precision a large revolution count would leave no digits for
+    /// the gear.
     #[inline(always)]
     fn geared(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Geared<P>> {
         Some(Geared::new(Coordinate::turn(seen, &self.axis, turns.odd())?, self.gear()))

@@ -1,4 +1,4 @@
-//! Dry friction of a turn about an axis, which sticks: [`super::Slip`] of its twist.
+//! Dry friction of a rotation about an axis, with sticking: [`super::Slip`] of its torsion angle.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -11,31 +11,31 @@ use crate::record::Record;
 use crate::words::{WordSource, WordVisitor, Words};
 
 law! {
-    /// Dry friction between two bodies that turn about an axis.
+    /// Dry friction between two bodies that rotate about an axis.
     pub struct HingeFriction = "hinge-friction" {
         /// Axis of rotation.
         axis: Axis,
         /// Torque of sliding friction at high rates.
         coulomb: Number("N·m"),
-        /// Torque at which sliding begins from rest, at least as large.
+        /// Torque at which sliding begins from rest, not below `coulomb`.
         breakaway: Number("N·m"),
         /// Rate at which the torque is midway between `breakaway` and `coulomb`.
         stribeck: Number("rad/s") = 0.05,
-        /// Elastic rotation at the torque of breakaway.
+        /// Elastic rotation at the breakaway torque.
         give: Number("rad") = 0.001,
-        /// Damping of the elastic rotation; with it the torque stays within the limit.
+        /// Damping of the elastic rotation; the torque with damping stays within the friction limit.
         damping: Number("N·m·s/rad") = 0.0,
         /// Viscous friction.
         viscous: Number("N·m·s/rad") = 0.0,
     }
 }
 
-/// What it remembers.
+/// Its memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnSlip<R> {
-    /// Half windings of the twist.
+    /// Half revolutions of the torsion angle.
     pub turns: Turns,
-    /// Of the twist.
+    /// The slip of the torsion angle.
     pub slip: Slip<R>,
 }
 

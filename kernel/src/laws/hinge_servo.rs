@@ -1,4 +1,4 @@
-//! A servo that turns one body relative to another: [`super::servo`] of the turn, as a damper with bounds.
+//! A servo that rotates one body relative to another: [`super::servo`] of the rotation, as a damper with bounds.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -12,15 +12,15 @@ use crate::record::Record;
 law! {
     /// A rotation of the second body relative to the first about an axis, driven by a servo without a rotor.
     pub struct HingeServo = "hinge-servo" {
-        /// Axis of rotation; the angle is 0 at t = 0 and counts whole turns.
+        /// Axis of rotation; the angle is 0 at t = 0 and includes whole revolutions.
         axis: Axis,
         /// Input of the servo.
         input: Signal,
-        /// Stiffness of a servo of position.
+        /// Stiffness of a position servo.
         servo_stiffness: Number("N·m/rad") = 0.0,
         /// Damping of the servo.
         servo_damping: Number("N·m·s/rad"),
-        /// Rate per unit of the input at which the servo does nothing: 1 of a velocity.
+        /// Rate per unit of the input at which the servo's effort is 0: 1 for a velocity.
         feed: Number = 0.0,
         /// Largest effort.
         most: Number("N·m") = 1e30,

@@ -1,6 +1,6 @@
-//! A spring about an axis by a table of its torque over its angle: progressive, one-sided, with a dead zone.
+//! A spring about an axis with a table of torque over angle: progressive, one-sided, with a dead zone.
 //!
-//! Twist `θ ↦ torque T(θ)` against it, along the twist's gradient; its energy is the area.
+//! Torsion angle `θ ↦ torque T(θ)` against it, along the angle's gradient; its energy is the area.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -12,11 +12,11 @@ use crate::real::Real;
 use crate::record::Record;
 
 law! {
-    /// A spring about an axis by a table of its torque over its angle: progressive, one-sided, with a dead zone.
+    /// A spring about an axis with a table of torque over angle: progressive, one-sided, with a dead zone.
     pub struct HingeSpring = "hinge-spring" {
-        /// Axis of rotation; the angle is 0 at t = 0 and counts whole turns.
+        /// Axis of rotation; the angle is 0 at t = 0 and includes whole revolutions.
         axis: Axis,
-        /// Torque against the angle, which never falls; before the first knot and after the last it goes on straight.
+        /// Torque against the angle, non-decreasing; extrapolated linearly beyond the first and the last knot.
         torque: Table<16>("rad", "N·m"),
     }
 }

@@ -1,6 +1,7 @@
-//! Stops of a turn about an axis: the law of [`super::EndStop`] at both ends of a range.
+//! Stops of a rotation about an axis: the law of [`super::EndStop`] at both ends of a range.
 //!
-//! Twist `θ ↦ x = θ − to` or `from − θ`, torque `k·x·(1 + a·ẋ)` back into the range, along the twist's gradient.
+//! Torsion angle `θ ↦ x = θ − to` or `from − θ`, torque `k·x·(1 + a·ẋ)` back into the range, along the angle's
+//! gradient.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -14,7 +15,7 @@ use crate::record::Record;
 law! {
     /// Stops at both ends of a range of rotation of the second body relative to the first about an axis.
     pub struct HingeStop = "hinge-stop" {
-        /// Axis of rotation; the angle is 0 at t = 0 and counts whole turns.
+        /// Axis of rotation; the angle is 0 at t = 0 and includes whole revolutions.
         axis: Axis,
         /// Lower end of the range.
         from: Number("rad"),

@@ -1,4 +1,4 @@
-//! What an interaction is: all that the kernel asks of a law between two bodies.
+//! The interface of an interaction: a law between two bodies.
 
 use crate::elements::share::Share;
 use crate::geometry::{F64, Geometry};
@@ -12,13 +12,13 @@ use crate::record::Record;
 use crate::space::Linear as _;
 use crate::words::{WordSource, WordVisitor, Words};
 
-/// So many of something, one beside the other: `[(); 2]` has two.
+/// A fixed number of items: `[(); 2]` has two.
 pub trait Several: 'static {
-    /// How many.
+    /// The number.
     const COUNT: usize;
-    /// So many `T`.
+    /// An array of `T`.
     type Of<T: Copy + Send + Sync + 'static>: Copy + AsRef<[T]> + AsMut<[T]> + Send + Sync + 'static;
-    /// Each of them.
+    /// An array of equal items.
     fn of<T: Copy + Send + Sync + 'static>(value: T) -> Self::Of<T>;
 }
 
@@ -31,7 +31,7 @@ impl<const N: usize> Several for [(); N] {
     }
 }
 
-/// The memory of a law that remembers nothing.
+/// The memory of a law without memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Nothing;
 
@@ -48,21 +48,21 @@ pub struct Damper<P: Geometry> {
     pub coefficient: P::Real,
     /// Where it acts.
     pub direction: Direction<P::Space>,
-    /// \[m/s, rad/s\] the rate r₀ at which it does nothing.
+    /// \[m/s, rad/s\] the rate r₀ at which the tension is 0.
     pub rate: P::Real,
-    /// \[N, N·m\] the least mean tension over the time it acts, at most 0, and the largest, at least 0.
+    /// \[N, N·m\] the smallest mean tension over its duration, at most 0, and the largest, at least 0.
     bounds: [P::Real; 2],
-    /// Whether it takes no more than all of the rate.
+    /// Whether it is limited to stopping the rate.
     brakes: bool,
-    /// \[1\] which part of the rate of the law's own freedom belongs to its rate.
+    /// \[1\] the fraction of the internal degree of freedom's rate in its rate.
     inner: P::Real,
 }
 
-/// Beyond any force, and its product with any step is a number in single precision.
+/// Beyond any force; its product with any step is finite in single precision.
 const MOST: f64 = 1e30;
 
 impl<P: Geometry> Damper<P> {
-    /// A damper towards rest, without bounds.
+    /// A damper towards zero rate, without bounds.
     #[inline(always)]
     #[must_use]
     pub fn new(coefficient: P::Real, direction: Direction<P::Space>) -> Self {
@@ -80,7 +80,7 @@ impl<P: Geometry> Damper<P> {
         Self::new(P::Real::ZERO, Direction { along: P::Vector::ZERO, moments })
     }
 
-    /// With bounds of its tension \[N, N·m\]: `within(least, most)`. Both contain 0: a bound never pushes.
+    /// Limits its tension \[N, N·m\]: `within(least, most)`. The range contains 0: a bound never exerts a force.
     #[inline(always)]
     #[must_use]
     pub fn within(self, least: P::Real, most: P::Real) -> Self {
@@ -90,42 +90,42 @@ impl<P: Geometry> Damper<P> {
         Self { bounds: [least, most], ..self }
     }
 
-    /// The bounds \[N, N·m\], the least tension and the largest.
+    /// The bounds \[N, N·m\], the smallest tension and the largest.
     #[inline(always)]
     #[must_use]
     pub fn bounds(&self) -> [P::Real; 2] {
         self.bounds
     }
 
-    /// Towards a rate \[m/s, rad/s\].
+    /// Sets the target rate \[m/s, rad/s\].
     #[inline(always)]
     #[must_use]
     pub fn towards(self, rate: P::Real) -> Self {
         Self { rate, ..self }
     }
 
-    /// Which never turns the rate around, whatever the rate that it goes towards: a tangent of a damper's law.
+    /// Never reverses the rate, whatever its target rate: a tangent of a damper's law.
     #[inline(always)]
     #[must_use]
     pub fn braking(self) -> Self {
         Self { brakes: true, ..self }
     }
 
-    /// Whose rate has this part of the rate of the law's own freedom, [`Interaction::inner`].
+    /// Adds this fraction of the rate of the law's internal degree of freedom, [`Interaction::inner`], to its rate.
     #[inline(always)]
     #[must_use]
     pub fn with_inner(self, inner: P::Real) -> Self {
         Self { inner, ..self }
     }
 
-    /// \[1\] the part of the rate of the law's own freedom that belongs to its rate.
+    /// \[1\] the fraction of the internal degree of freedom's rate in its rate.
     #[inline(always)]
     #[must_use]
     pub fn inner(&self) -> P::Real {
         self.inner
     }
 
-    /// Whether it never turns the rate around.
+    /// Whether it never reverses the rate.
     #[inline(always)]
     #[must_use]
     pub fn brakes(&self) -> bool {
@@ -143,34 +143,34 @@ impl<P: Geometry> Damper<P> {
     }
 }
 
-/// A freedom that a law has of its own, in its memory: a rotor behind a gear.
+/// An internal degree of freedom of a law, part of its memory: a rotor behind a gear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inner<R> {
     /// \[m/s, rad/s\] its rate.
     pub rate: R,
-    /// \[m/s, rad/s\] what the kick just before gave to it.
+    /// \[m/s, rad/s\] its change by the preceding kick.
     pub kick: R,
     /// \[1/kg, 1/(kg·m²)\]
     pub inverse_inertia: R,
 }
 
-/// What a law's memory asks of a scheme, the least first.
+/// The requirement of a law's memory on a scheme, weakest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Need {
-    /// No steps back in time: it loses energy as it is settled.
+    /// No steps back in time: it loses energy when it is updated.
     Forward,
-    /// One evaluation per step besides: steps bring it on.
+    /// Also one evaluation per step: steps advance it.
     Steps,
-    /// Passes over dampers besides: they bring its own freedom on.
+    /// Also damper passes: they advance its internal degree of freedom.
     Passes,
 }
 
-/// A number that a law shows beside what it does: a depth, a slip.
+/// An additional output of a law: a depth, a slip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quantity {
-    /// Its name, as `depth`.
+    /// Its name, for example `depth`.
     pub name: &'static str,
-    /// Its unit, as `m`; `1` where it has none.
+    /// Its unit, for example `m`; `1` where it has none.
     pub unit: &'static str,
 }
 
@@ -179,9 +179,9 @@ pub struct Quantity {
 pub struct Wrong {
     /// The field.
     pub field: &'static str,
-    /// What is wrong, to follow its name: `is negative`.
+    /// What is wrong, as a predicate after its name: `is negative`.
     pub problem: &'static str,
-    /// What it must be: `a stiffness ≥ 0`.
+    /// What it must be, for example `a stiffness ≥ 0`.
     pub expected: &'static str,
 }
 
@@ -189,7 +189,7 @@ impl Wrong {
     /// Refuses a field unless it `holds`.
     ///
     /// # Errors
-    /// Itself.
+    /// The error itself.
     pub fn unless(
         holds: bool,
         field: &'static str,
@@ -200,7 +200,7 @@ impl Wrong {
     }
 }
 
-/// The constants of a law in one precision; [`law!`](crate::law) writes this.
+/// The constants of a law in one precision; implemented by [`law!`](crate::law).
 pub trait Constants<P: Geometry>: Copy + Send + Sync + 'static {
     /// The law's name, in lower case with hyphens.
     const NAME: &'static str;
@@ -216,53 +216,54 @@ pub trait Constants<P: Geometry>: Copy + Send + Sync + 'static {
 pub type Springs<'v, P> =
     &'v mut dyn FnMut(<P as Geometry>::Real, &Direction<<P as Geometry>::Space>);
 
-/// A law between two bodies. Its terms: a coordinate with a [`Direction`], a spring force along it, dampers.
+/// A law between two bodies: a spring force along a [`Direction`], and dampers.
 ///
-/// The sign of a record: [`Seen::pull`]. All that a law says must be a function of what it sees and of its memory,
-/// in arithmetic of [`Real`]: then its bits are the same on every target.
+/// The sign of a record is that of [`Seen::pull`]. A law must be a function of its arguments and its memory only, in
+/// arithmetic of [`Real`]: then its bits are the same on every target.
 pub trait Interaction<P: Geometry>: Constants<P> {
-    /// What it remembers from step to step; [`Nothing`].
+    /// Its memory from step to step; [`Nothing`] without one.
     type State: Copy + Default + Words + Send + Sync + 'static;
-    /// How many dampers it has at most: `[(); 1]`.
+    /// The largest number of its dampers: `[(); 1]`.
     type Dampers: Several;
-    /// Whether it brings its memory on by [`Self::advance`], once per step.
+    /// Whether it advances its memory by [`Self::advance`], once per step.
     const ADVANCES: bool = false;
-    /// Whether its energy falls as its memory is settled, as that of friction does: schemes with steps back in time
-    /// refuse it then. A memory that only counts turns loses nothing.
+    /// Whether an update of its memory reduces its energy, as for friction: schemes with steps back in time refuse it
+    /// then. A memory that only counts revolutions loses no energy.
     const SLIPS: bool = Self::ADVANCES;
-    /// Whether it has a freedom of its own, which passes over dampers bring on; it [`Self::ADVANCES`] then.
+    /// Whether it has an internal degree of freedom, which damper passes advance; it [`Self::ADVANCES`] then.
     const INNER: bool = false;
     /// Whether its dampers are those of a drive: their work counts as that of inputs.
     const DRIVES: bool = false;
-    /// Whether [`Self::record`] depends on inputs: an input that is set costs an evaluation then. Dampers and drives may
-    /// depend on them without that.
+    /// Whether [`Self::record`] depends on inputs: setting an input then costs an evaluation. Dampers and drives may
+    /// depend on inputs without it.
     const DRIVEN: bool = false;
-    /// On how many further pairs of bodies it acts at most, up to [`MOST_BRANCHES`](crate::laws::MOST_BRANCHES): with one
-    /// tension along the sum of its own direction and of theirs. Such a law has one damper at most.
+    /// The largest number of further pairs of bodies on which it acts, up to
+    /// [`MOST_BRANCHES`](crate::laws::MOST_BRANCHES): with one tension along the sum of its own direction and of
+    /// theirs. Such a law has at most one damper.
     const BRANCHES: usize = 0;
-    /// What [`Self::read`] shows.
+    /// The outputs of [`Self::read`].
     const QUANTITIES: &'static [Quantity] = &[];
 
-    /// Brings its memory to the boundary of a step, before [`Self::record`]: a projection, twice is once. An
-    /// evaluation may be repeated without time passing.
+    /// Updates its memory at the boundary of a step, before [`Self::record`]; must be idempotent. An evaluation may be
+    /// repeated without time passing.
     #[inline(always)]
     fn settle(&self, _seen: &Seen<'_, P>, _state: &mut Self::State) {}
 
-    /// Brings its memory on by a step of `h` \[s\], at the pose at its end, once per step: for what a law
-    /// integrates. Schemes of one evaluation per step alone do this.
+    /// Advances its memory by a step of `h` \[s\], at the pose at its end, once per step: for integrated quantities.
+    /// Only schemes of one evaluation per step do this.
     #[inline(always)]
     fn advance(&self, _seen: &Seen<'_, P>, _h: P::Real, _state: &mut Self::State) {}
 
-    /// What its springs do to its bodies, without its dampers; `None` where that is undefined, which fails the step.
+    /// The record of its springs, without its dampers; `None` where it is undefined, which fails the step.
     fn record(&self, seen: &Seen<'_, P>, state: &Self::State) -> Option<Record<P::Space>>;
 
-    /// \[J\] the energy that [`Self::record`] is minus the gradient of, as far as it has one.
+    /// \[J\] the energy whose negative gradient is [`Self::record`], if it has one.
     fn energy(&self, seen: &Seen<'_, P>, state: &Self::State) -> P::Real;
 
-    /// Visits the stiffness of [`Self::record`] as springs along directions \[N/m, N·m/rad\], each at its largest
-    /// wherever it may get to within a step; returns \[N·m\] what its force does to a turn of A and of B, in any
-    /// direction at most. The frequency bound and the matrix of implicit schemes are made of it. With [`Self::BRANCHES`]
-    /// the first spring is one along all directions; the others are of its own pair alone.
+    /// Visits the stiffness of [`Self::record`] as springs along directions \[N/m, N·m/rad\], each at its largest value
+    /// within a step; returns \[N·m\] an upper bound of the effect of its force on a rotation of A and of B, in any
+    /// direction. Used by the frequency bound and the matrix of implicit schemes. With [`Self::BRANCHES`] the first
+    /// spring is along all directions; the others belong to its own pair.
     fn tangent(
         &self,
         seen: &Seen<'_, P>,
@@ -273,7 +274,7 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     /// Visits the bodies of its branches, A and B, in the order of [`Self::branches`].
     fn branch_bodies(&self, _visit: &mut dyn FnMut([BodyIndex; 2])) {}
 
-    /// Visits its branches with the tension of its spring, each time as many and in the same order.
+    /// Visits its branches with the tension of its spring, always the same number in the same order.
     #[inline(always)]
     fn branches(
         &self,
@@ -283,7 +284,7 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     ) {
     }
 
-    /// [`Self::tangent`] of a branch by its place, without the spring along all directions.
+    /// [`Self::tangent`] of a branch by its index, without the spring along all directions.
     fn branch_tangent(
         &self,
         _branch: usize,
@@ -294,7 +295,7 @@ pub trait Interaction<P: Geometry>: Constants<P> {
         [P::Real::ZERO; 2]
     }
 
-    /// Visits its dampers, each time as many and in the same order, idle ones with the coefficient 0.
+    /// Visits its dampers, always the same number in the same order, idle ones with the coefficient 0.
     #[inline(always)]
     fn dampers(
         &self,
@@ -304,81 +305,81 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     ) {
     }
 
-    /// Gives to its own freedom what its springs give in the time `h` \[s\], before a pass; returns \[m/s, rad/s\] what
-    /// that is.
+    /// Applies its springs to its internal degree of freedom for the time `h` \[s\], before a damper pass; returns the
+    /// change \[m/s, rad/s\].
     #[inline(always)]
     fn kick(&self, _seen: &Seen<'_, P>, _h: P::Real, _state: &mut Self::State) -> P::Real {
         P::Real::ZERO
     }
 
-    /// Drives and damps its own freedom by itself, `[time, kick]`: for a time \[s\], after a kick that gave it so much
-    /// \[m/s, rad/s\]. It comes first in a pass, last in one of descending order.
+    /// Drives and damps its internal degree of freedom, `[time, kick]`: for a time \[s\], after a kick \[m/s, rad/s\].
+    /// It comes first in a pass, last in a descending one.
     #[inline(always)]
     fn drive(&self, _seen: &Seen<'_, P>, _time_and_kick: [P::Real; 2], _state: &mut Self::State) {}
 
-    /// Its own freedom, with the kick that it was given.
+    /// Its internal degree of freedom, with the change by the kick.
     #[inline(always)]
     fn inner(&self, _state: &Self::State, kick: P::Real) -> Inner<P::Real> {
         Inner { rate: P::Real::ZERO, kick, inverse_inertia: P::Real::ZERO }
     }
 
-    /// Sets the rate \[m/s, rad/s\] of its own freedom.
+    /// Sets the rate \[m/s, rad/s\] of its internal degree of freedom.
     #[inline(always)]
     fn set_inner(&self, _rate: P::Real, _state: &mut Self::State) {}
 
-    /// \[rad²/s²\] the square of the highest frequency of its own freedom where its bodies are held.
+    /// \[rad²/s²\] the square of the highest frequency of its internal degree of freedom with fixed bodies.
     fn inner_square(&self) -> P::Real {
         P::Real::ZERO
     }
 
-    /// \[W\] what drives its own freedom gives.
+    /// \[W\] the power of the drive of its internal degree of freedom.
     fn supply(&self, _seen: &Seen<'_, P>, _state: &Self::State) -> P::Real {
         P::Real::ZERO
     }
 
     /// Replaces the vectors of its memory: `turn(0, v)` those in the axes of A, `turn(1, v)` those in the axes of B.
-    /// A plane's memory comes into space by it, and back.
+    /// Used to convert a planar memory to space and back.
     fn turn(_state: &mut Self::State, _turn: &mut dyn FnMut(usize, [f64; 3]) -> [f64; 3]) {}
 
-    /// Whether its constants go together, as a scene gives them.
+    /// Checks its constants, as given in a scene.
     ///
     /// # Errors
-    /// The field that is wrong, why, and what would be right.
+    /// The invalid field, the problem, and the expected value.
     fn check(&self) -> Result<(), Wrong> {
         Ok(())
     }
 
-    /// What it shows, by its place among [`Self::QUANTITIES`].
+    /// An output, by its index in [`Self::QUANTITIES`].
     #[inline]
     fn read(&self, _quantity: usize, _seen: &Seen<'_, P>, _state: &Self::State) -> P::Real {
         P::Real::ZERO
     }
 }
 
-/// A law in all precisions: what scenes, exports and programs that read scenes know of it. Written by
-/// [`law!`](crate::law) for its constants in double precision.
+/// A law in all precisions, for scenes, exports and programs that read scenes. Implemented by [`law!`](crate::law) for
+/// its constants in double precision.
 pub trait Law: Interaction<F64> {
-    /// It in another precision.
+    /// The law in another precision.
     type In<P: Geometry>: Interaction<P>;
-    /// Its constants beside its bodies, in their order.
+    /// Its constants except its bodies, in their order.
     const FIELDS: &'static [Field];
-    /// What it is, in a line.
+    /// A description in one line.
     const ABOUT: &'static str;
-    /// The path of its type in Rust, as the module has it that declares it.
+    /// The path of its type in Rust, in the declaring module.
     const PATH: &'static str;
-    /// The name and the folder of the package that declares it.
+    /// The name and the folder of the declaring package.
     const PACKAGE: [&'static str; 2];
 
     /// Its constants rounded once.
     fn rounded<P: Geometry>(&self) -> Self::In<P>;
 
-    /// Its constants from a source that knows them by name; `None` where the source has refused one.
+    /// Reads its constants from a source by name; `None` where the source has refused one.
     fn read_from(bodies: [BodyIndex; 2], source: &mut dyn FieldSource) -> Option<Self>;
 
-    /// Its constants to a sink, in their order.
+    /// Writes its constants to a sink, in their order.
     fn write_to(&self, sink: &mut dyn FieldSink);
 }
 
-/// The shares of a law's dampers.
+/// The weights of a law's dampers.
 pub(crate) type SharesOf<P, T> =
     <<T as Interaction<P>>::Dampers as Several>::Of<Share<<P as Geometry>::Real>>;

@@ -1,4 +1,4 @@
-//! What kinds of constants laws have: how each is stored, rounded, hashed, read and written.
+//! The kinds of constants of laws: how each is stored, rounded, hashed, read and written.
 
 use core::fmt::Debug;
 
@@ -12,27 +12,27 @@ use crate::space::{Linear as _, Space, Turn as _};
 use crate::vector::{Quaternion, Vec3};
 use crate::words::{Word, WordVisitor, Words as _};
 
-/// A constant of a law: its name, its kind's name, its units, what it is.
+/// A constant of a law: its name, its kind's name, its units, its description.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Field {
     /// The key in a scene.
     pub name: &'static str,
     /// [`Kind::NAME`].
     pub kind: &'static str,
-    /// Units in the words of scenes, as `N/m`; `1` without one. A table has two.
+    /// Units as in scenes, for example `N/m`; `1` without one. A table has two.
     pub units: &'static [&'static str],
-    /// \[unit of the field, SI\] the value of a number where a scene gives none.
+    /// \[unit of the field, SI\] the default of a number.
     pub default: Option<f64>,
-    /// What it is, of its documentation.
+    /// Its description, from its documentation.
     pub about: &'static str,
 }
 
-/// Gives constants by name, in double precision, in the axes they are stored in. What it gives `None` for it has
-/// refused, and remembers why.
+/// Provides constants by name, in double precision, in the axes they are stored in. A source that returns `None` has
+/// refused the constant and records why.
 pub trait FieldSource {
-    /// A number in the field's unit of the SI.
+    /// A number in the field's SI unit.
     fn number(&mut self, field: &Field) -> Option<f64>;
-    /// A whole number; of the kind `signal` the row of an input.
+    /// A whole number; for the kind `signal` the row of an input.
     fn count(&mut self, field: &Field) -> Option<u32>;
     /// \[m\] a point of A and a point of B, each in the axes of its body.
     fn points(&mut self, field: &Field) -> Option<[[f64; 3]; 2]>;
@@ -40,13 +40,13 @@ pub trait FieldSource {
     fn normal(&mut self, field: &Field) -> Option<[f64; 3]>;
     /// \[1\] a unit axis in the axes of A, and the inverse of B's orientation in A at t = 0, scalar first.
     fn axis(&mut self, field: &Field) -> Option<([f64; 3], [f64; 4])>;
-    /// Knots with ascending x to the front of `to`; how many.
+    /// Writes knots with ascending x to the front of `to`; returns their number.
     fn table(&mut self, field: &Field, to: &mut [[f64; 2]]) -> Option<usize>;
-    /// Terms of a sum, the first ones are there.
+    /// Terms of a sum, the present ones first.
     fn terms(&mut self, field: &Field) -> Option<[Option<Term>; MOST_TERMS]>;
 }
 
-/// Takes constants by name, in double precision.
+/// Accepts constants by name, in double precision.
 pub trait FieldSink {
     /// A number.
     fn number(&mut self, field: &Field, value: f64);
@@ -58,7 +58,7 @@ pub trait FieldSink {
     fn normal(&mut self, field: &Field, normal: [f64; 3]);
     /// An axis and a reference.
     fn axis(&mut self, field: &Field, axis: [f64; 3], reference: [f64; 4]);
-    /// Knots, and how many there may be.
+    /// Knots, and their largest number.
     fn table(&mut self, field: &Field, knots: &[[f64; 2]], capacity: usize);
     /// Terms of a sum.
     fn terms(&mut self, field: &Field, terms: &[Option<Term>; MOST_TERMS]);
@@ -66,7 +66,7 @@ pub trait FieldSink {
 
 /// A kind of constant.
 pub trait Kind {
-    /// As stored in a precision.
+    /// The stored form in a precision.
     type In<P: Geometry>: Copy + Debug + PartialEq + Send + Sync + 'static;
     /// The kind's name.
     const NAME: &'static str;
@@ -75,13 +75,13 @@ pub trait Kind {
     fn rounded<P: Geometry>(of: &Self::In<F64>) -> Self::In<P>;
     /// Visits its words.
     fn visit<P: Geometry>(of: &Self::In<P>, visitor: &mut dyn WordVisitor);
-    /// From a source.
+    /// Reads it from a source.
     fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<Self::In<F64>>;
-    /// To a sink.
+    /// Writes it to a sink.
     fn write_to(of: &Self::In<F64>, field: &Field, sink: &mut dyn FieldSink);
 }
 
-/// Hands words on to a visitor known by its table of functions.
+/// Adapts a visitor given as a trait object.
 struct Hand<'v>(&'v mut dyn WordVisitor);
 
 impl WordVisitor for Hand<'_> {
@@ -134,7 +134,7 @@ impl Kind for Count {
     }
 }
 
-/// An input of the model, which the law reads: [`InputIndex`].
+/// An input of the model that the law reads: [`InputIndex`].
 #[derive(Clone, Copy, Debug)]
 pub struct Signal;
 
@@ -200,7 +200,7 @@ impl Kind for Normal {
     }
 }
 
-/// An axis about which B turns in A: [`Hinge`].
+/// An axis about which B rotates in A: [`Hinge`].
 #[derive(Clone, Copy, Debug)]
 pub struct Axis;
 
@@ -229,7 +229,7 @@ impl Kind for Axis {
 
 type TurnIn<P> = <<P as Geometry>::Space as Space>::Turn;
 
-/// A function by at most `N` knots, straight between them: [`Curve`].
+/// A piecewise linear function of at most `N` knots: [`Curve`].
 #[derive(Clone, Copy, Debug)]
 pub struct Table<const N: usize>;
 
@@ -253,7 +253,7 @@ impl<const N: usize> Kind for Table<N> {
     }
 }
 
-/// The terms of a sum: `[Option<Term<P>>; MOST_TERMS]`, the first ones are there.
+/// The terms of a sum: `[Option<Term<P>>; MOST_TERMS]`, the present ones first.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms;
 
@@ -295,7 +295,7 @@ impl Kind for Terms {
     }
 }
 
-/// The first of some numbers: the default of a field, where there is one.
+/// The first of the numbers, if any: the default of a field.
 #[doc(hidden)]
 #[must_use]
 pub const fn first(numbers: &[f64]) -> Option<f64> {

@@ -1,6 +1,6 @@
 //! The list of a model's laws: a tuple of tables, each the rows of one law.
 //!
-//! `(tables, pose) => records added to the wrenches`. What is not listed has no code, so nothing is switched off.
+//! `(tables, pose) => records added to the wrenches`. Laws that are not listed generate no code.
 
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
@@ -11,28 +11,28 @@ use crate::laws::slice;
 use crate::record::Wrench;
 use crate::words::{WordSource, WordVisitor};
 
-/// A model's laws: a table, a tuple of tables, or what a program that reads scenes keeps them in.
+/// A model's laws: a table, a tuple of tables, or a container of a program that reads scenes.
 pub trait Laws<P: Geometry>: Send + Sync + 'static {
     /// Memories of the rows.
     type States: Clone + Send + Sync + 'static;
-    /// Shares of their dampers.
+    /// Weights of their dampers.
     type Shares: Clone + Send + Sync + 'static;
     /// Whether the list has no table.
     const EMPTY: bool;
     /// Whether any may have dampers.
     const DAMPED: bool;
-    /// Whether any may bring its memory on by steps.
+    /// Whether any may advance its memory by steps.
     const ADVANCES: bool;
 
-    /// How many rows there are.
+    /// The number of rows.
     fn count(&self) -> usize;
     /// Whether any row has dampers.
     fn is_damped(&self) -> bool;
-    /// Whether what any row does depends on inputs.
+    /// Whether the force of any row depends on inputs.
     fn is_driven(&self) -> bool;
-    /// Memories as at t = 0.
+    /// Memories at t = 0.
     fn states(&self) -> Self::States;
-    /// A share per damper.
+    /// A weight per damper.
     fn shares(&self) -> Self::Shares;
     /// Adds the records in order.
     ///
@@ -45,7 +45,7 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
         act: Act<P::Real>,
         wrenches: &mut [Wrench<P::Space>],
     ) -> Result<(), usize>;
-    /// Lets the dampers act row by row, in descending order with `reverse`.
+    /// Applies the dampers row by row, in descending order with `reverse`.
     fn sweep(
         &self,
         reverse: bool,
@@ -53,9 +53,9 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
         shares: &Self::Shares,
         pass: &mut dyn DamperPass<P>,
     );
-    /// Hands a row to `look`; does nothing where the list has no such row.
+    /// Passes a row to `look`; does nothing where the list has no such row.
     fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&dyn Row<P>));
-    /// The share of a damper of a row.
+    /// The weight of a damper of a row.
     fn share_mut<'s>(
         &self,
         shares: &'s mut Self::Shares,
@@ -64,9 +64,9 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
     ) -> Option<&'s mut Share<P::Real>>;
     /// Visits the words of the memories.
     fn visit(states: &Self::States, visitor: &mut dyn WordVisitor);
-    /// Takes them from a source.
+    /// Reads the memories from a source.
     fn fill(states: &mut Self::States, source: &mut dyn WordSource);
-    /// The first law whose memory asks most of a scheme, and what it asks.
+    /// The first law with the strictest requirement on a scheme, and the requirement.
     fn memory(&self) -> Option<(&'static str, Need)>;
 
     /// Visits every row in order.
@@ -146,7 +146,7 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
     }
 }
 
-/// That of two laws' memories which asks for more, the first where both ask for the same.
+/// The stricter of two laws' requirements, the first where both are equal.
 fn stricter(
     a: Option<(&'static str, Need)>,
     b: Option<(&'static str, Need)>,

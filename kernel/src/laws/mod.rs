@@ -1,16 +1,16 @@
-//! Interactions: laws between two bodies, one type in one file each, in this crate or in a user's.
+//! Interactions: laws between two bodies, one type per file, in this crate or in a user's.
 //!
-//! `(law, two ends, memory) => force pair, dampers, energy, tangent`. A law is an [`Interaction`]; its
-//! constants are declared by [`law!`](crate::law), which also says how they are read from a scene, rounded to a
-//! precision, hashed and exported. A model's type lists its laws as a tuple of tables,
-//! `Model<F32, 1, …, ([EndStop<F32>; 1],)>`; what is not in the list leaves no code and no memory.
+//! `(law, two ends, memory) => force pair, dampers, energy, tangent`. A law is an [`Interaction`]; its constants are
+//! declared by [`law!`](crate::law), which also defines how they are read from a scene, rounded to a precision, hashed
+//! and exported. A model's type lists its laws as a tuple of tables, `Model<F32, 1, …, ([EndStop<F32>; 1],)>`; laws
+//! that are not listed generate no code and no memory.
 //!
 //! The order of sums: after all groups and torsion springs, table by table as listed, row by row. Dampers act
 //! likewise, in descending order in the second half of a step.
 //!
-//! A law sees its two bodies as [`Seen`]: where points lie, how they move, how one body has turned in the other.
-//! It answers with a [`Record`] and with [`Damper`]s, each along a [`Direction`]: a unit force or a unit moment on
-//! both bodies, so action equals reaction and the power of a force along it is force times rate, exactly.
+//! A law gets its two bodies as [`Seen`]: points, velocities, the rotation of one body in the other. It returns a
+//! [`Record`] and [`Damper`]s, each along a [`Direction`]: a unit force or a unit moment on both bodies, so action
+//! equals reaction and the power of a force along it is exactly force times rate.
 
 #[macro_use]
 mod declare;
@@ -87,7 +87,7 @@ pub use term::{MOST_TERMS, Term, Way};
 pub use crate::record::Direction;
 pub use crate::record::Record;
 
-/// What a file with a law of one's own needs: `use dbd_kernel::laws::prelude::*;`.
+/// The imports for a file with a user-defined law: `use dbd_kernel::laws::prelude::*;`.
 pub mod prelude {
     pub use super::{
         Damper, Direction, Hinge, Interaction, Nothing, Quantity, Record, Seen, Springs, Turns,

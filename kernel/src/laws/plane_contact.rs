@@ -1,9 +1,9 @@
-//! A sphere on a plane: it is pushed off, sticks, slides and rolls.
+//! A sphere on a plane: contact, sticking, sliding and rolling.
 //!
-//! Depth `x ↦ N = k·x·(1 + a·ẋ)` along the normal, the law of [`super::EndStop`]. Where the surfaces met at the boundary of
-//! a step, a spring holds those two points together along the plane (Cundall & Strack, Géotechnique 29 (1979) 47): what
-//! bodies have done since stretches it, and a boundary returns its force to the cone `μ·N`, as [`super::Slip`] does, so it
-//! takes energy at any step, and holds still at rest. A moment `rolling·N` brakes the rolling.
+//! Depth `x ↦ N = k·x·(1 + a·ẋ)` along the normal, the law of [`super::EndStop`]. A tangential spring joins the points
+//! of both surfaces that touched at the boundary of a step (Cundall & Strack, Géotechnique 29 (1979) 47): the bodies'
+//! motion since then extends it, and a boundary limits its force to the cone `μ·N`, as [`super::Slip`] does, so it
+//! dissipates energy at any step and holds without creep at rest. A moment `rolling·N` opposes the rolling.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -18,7 +18,7 @@ use crate::vector::Vec3;
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
 law! {
-    /// A sphere, or a point, of the second body on a plane of the first one, with friction.
+    /// A sphere or a point of the second body on a plane of the first body, with friction.
     pub struct PlaneContact = "plane-contact" {
         /// A point of the plane in the first body, the centre of the sphere in the second.
         points: Points,
@@ -30,29 +30,29 @@ law! {
         stiffness: Number("N/m"),
         /// Hunt–Crossley coefficient a: the normal force is stiffness · depth · (1 + a · rate of the depth).
         dissipation: Number("s/m") = 0.0,
-        /// Coefficient of dry friction: the tangential force is at most so much of the normal force.
+        /// Coefficient of dry friction: the largest tangential force over the normal force.
         friction: Number = 0.0,
         /// Tangential stiffness over `stiffness` while the contact sticks.
         shear: Number = 0.8,
-        /// Damping of the tangential give; with it the tangential force stays within that of friction.
+        /// Damping of the tangential deflection; the tangential force with damping stays within the friction limit.
         damping: Number("N·s/m") = 0.0,
         /// Moment of rolling resistance over the normal force.
         rolling: Number("m") = 0.0,
     }
 }
 
-/// What a contact remembers: where the surfaces met.
+/// The memory of a contact: the points of contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Held<V> {
     /// \[m\] the point of A at which the tangential force is 0, from the plane's point, axes of A.
     pub anchor: V,
     /// \[m\] the point of B, from the sphere's centre, axes of B.
     pub arm: V,
-    /// Whether the bodies touched.
+    /// Whether the bodies are in contact.
     pub touched: bool,
 }
 
-// In a plane, too, each vector has three words: memories are read in space.
+// Planar vectors have three words, too: memories are read in spatial form.
 impl<V: Linear> Words for Held<V> {
     fn visit(&self, visitor: &mut impl WordVisitor) {
         self.anchor.in_space().visit(visitor);
@@ -70,7 +70,7 @@ impl<V: Linear> Words for Held<V> {
     }
 }
 
-/// A give is returned to the cone where it exceeds that by more than rounding: settling twice is settling once.
+/// A deflection is limited to the cone where it exceeds it by more than rounding, so that an update is idempotent.
 const BEYOND: f64 = 1.0 + 1.0 / 65536.0;
 
 /// A contact at a pose.
@@ -78,11 +78,12 @@ struct Touching<P: Geometry> {
     stopped: Stopped<P>,
     /// Normal, world.
     normal: P::Vector,
-    /// \[m\] the arm of A's point, the way from it to the sphere's centre and the arm of that, world.
+    /// \[m\] the lever arm of A's point, the displacement from it to the sphere's centre and the lever arm of that,
+    /// world.
     ways: [P::Vector; 3],
-    /// \[m\] from the sphere's centre to the point of B that is held, world.
+    /// \[m\] from the sphere's centre to the stored point of B, world.
     held: P::Vector,
-    /// \[m\] the tangential give, axes of A.
+    /// \[m\] the tangential deflection, axes of A.
     give: P::Vector,
 }
 
@@ -104,7 +105,7 @@ impl<P: Geometry> PlaneContact<P> {
         Touching { stopped, normal, ways: [arm, way, other], held, give }
     }
 
-    /// \[N\] of the normal.
+    /// \[N\] the normal force.
     #[inline(always)]
     fn pressed(&self, seen: &Seen<'_, P>, touching: &Touching<P>) -> P::Real {
         let Touching { stopped, .. } = touching;
@@ -119,14 +120,14 @@ impl<P: Geometry> PlaneContact<P> {
         self.shear * self.stiffness
     }
 
-    /// \[m\] the arms of the point that is held, the way from A's point to it.
+    /// \[m\] the lever arms of the stored point, the displacement from A's point to it.
     #[inline(always)]
     fn held_at(touching: &Touching<P>) -> [P::Vector; 3] {
         let [arm, way, other] = touching.ways;
         [arm, way + touching.held, other + touching.held]
     }
 
-    /// The give as a coordinate.
+    /// The deflection as a coordinate.
     #[inline(always)]
     fn give(&self, seen: &Seen<'_, P>, touching: &Touching<P>) -> Coordinate<P> {
         let give = touching.give;
@@ -135,13 +136,13 @@ impl<P: Geometry> PlaneContact<P> {
         Coordinate::carried(size, along, Self::held_at(touching))
     }
 
-    /// Whether it has friction; constants alone are asked.
+    /// Whether it has friction; depends on constants only.
     #[inline(always)]
     fn is_rough(&self) -> bool {
         self.friction != P::Real::ZERO
     }
 
-    /// The damper of the give.
+    /// The damper of the deflection.
     #[inline(always)]
     fn shear_damper(&self, seen: &Seen<'_, P>, touching: &Touching<P>) -> Damper<P> {
         let [arm, way, other] = Self::held_at(touching);
@@ -149,7 +150,7 @@ impl<P: Geometry> PlaneContact<P> {
         let slip = seen.b.point_velocity(arms[1]) - seen.a.point_velocity(arms[0]);
         let slip = slip - touching.normal * touching.normal.dot(slip);
         let along = slip * inverse_of_rate(slip.dot(slip).sqrt());
-        // Give and its damping together stay within the cone.
+        // The spring and damper forces together stay within the cone.
         let force = seen.a.to_world(touching.give) * self.shear_stiffness();
         let (limit, same) = (self.friction * self.pressed(seen, touching), force.dot(along));
         let square = same * same + limit * limit - force.dot(force);
@@ -158,7 +159,7 @@ impl<P: Geometry> PlaneContact<P> {
         damper.within(P::Real::ZERO, square.sqrt() - same)
     }
 
-    /// What brakes the rolling.
+    /// The rolling resistance.
     #[inline(always)]
     fn rolling_damper(&self, seen: &Seen<'_, P>, touching: &Touching<P>) -> Damper<P> {
         let normal = touching.normal;
@@ -190,7 +191,7 @@ impl<P: Geometry> Interaction<P> for PlaneContact<P> {
             *memory = Held::default();
             return;
         }
-        // Where the centre is above the plane.
+        // The height of the centre above the plane.
         let [_, way, _] = touching.ways;
         let foot = -(touching.normal * touching.stopped.coordinate.value);
         let arm = seen.b.to_axes(foot);

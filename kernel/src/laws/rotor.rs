@@ -1,14 +1,15 @@
-//! A rotor behind a gear that gives: a freedom that a drive has in its memory.
+//! A rotor behind an elastic gear: an internal degree of freedom in a drive's memory.
 //!
-//! At the side of the coordinate x, `y = x + δ` the rotor's place, v its rate, m its inertia times the square of the gear's
-//! ratio: the gear pulls x by `k·dead(δ) + c·(v − ẋ)`, dead the part of δ beyond half of the play on either side, and takes
-//! the same from the rotor, `m·v̇ = τ − k·dead(δ) − c·(v − ẋ)` (Nordin, Galić & Gutman, Int. J. Adapt. Control Signal
-//! Process. 11 (1997) 49). Force and moment are a pair between the two bodies: what a rotor's own angular momentum does to
-//! its housing, one over the ratio of it, is left out, as that of an armature.
+//! At the side of the coordinate x, with `y = x + δ` the rotor's angle, v its rate, m its inertia times the square of
+//! the gear ratio: the gear acts on x with `k·dead(δ) + c·(v − ẋ)`, dead the part of δ beyond half of the backlash on
+//! either side, and on the rotor with the opposite, `m·v̇ = τ − k·dead(δ) − c·(v − ẋ)` (Nordin, Galić & Gutman, Int. J.
+//! Adapt. Control Signal Process. 11 (1997) 49). Force and moment are a pair between the two bodies: the reaction of
+//! the rotor's own angular momentum on its housing, 1/ratio of it, is left out, as for an armature.
 //!
-//! δ and v go with the bodies: both are kicked by half of the force of a pose before and after a drift, dampers act in the
-//! sweeps as those of bodies do. With a lag T the effort follows, `T·τ̇ = τ_c − τ`, an inductance with `T = L/R`; the pair
-//! (v, τ) then takes half a step by the (0,2) Padé approximant of its matrix, stable at any step.
+//! δ and v are integrated with the bodies: both are kicked by half of the force of a pose before and after a drift,
+//! dampers act in the damper passes like those of bodies. With a lag T the effort follows `T·τ̇ = τ_c − τ`, for an
+//! inductance `T = L/R`; the pair (v, τ) then advances half a step by the (0,2) Padé approximant of its matrix, stable
+//! at any step.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -20,18 +21,18 @@ use crate::record::Record;
 use crate::schedule::Signal;
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
-/// What a drive remembers of its rotor, at the side of the coordinate.
+/// A drive's memory of its rotor, at the side of the coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotor<R> {
-    /// \[m, rad\] the coordinate at the end of the step before.
+    /// \[m, rad\] the coordinate at the end of the last step.
     pub last: R,
-    /// \[m, rad\] δ, by how much the rotor is ahead of it.
+    /// \[m, rad\] δ, the rotor's lead over it.
     pub ahead: R,
     /// \[m/s, rad/s\] its rate v.
     pub rate: R,
-    /// \[N, N·m\] what drives it, τ.
+    /// \[N, N·m\] the effort τ.
     pub effort: R,
-    /// Whether its rate is its own: at first it turns with the coordinate.
+    /// Whether its rate is initialised: at first it equals that of the coordinate.
     pub begun: bool,
 }
 
@@ -43,7 +44,7 @@ impl<R: Real> Default for Rotor<R> {
 }
 
 impl<R: Real> Rotor<R> {
-    /// \[W\] what drives it gives.
+    /// \[W\] the power of the effort.
     pub(super) fn supply(&self) -> R {
         self.effort * self.rate
     }
@@ -78,7 +79,7 @@ pub(super) struct Gear<R> {
 }
 
 impl<R: Real> Gear<R> {
-    /// Refuses constants that make no drive.
+    /// Refuses invalid constants.
     pub(super) fn check(&self) -> Result<(), Wrong> {
         let zero = R::ZERO;
         Wrong::unless(self.inertia > zero, "inertia", "is not positive", "an inertia > 0")?;
@@ -88,19 +89,19 @@ impl<R: Real> Gear<R> {
         Wrong::unless(self.lag >= zero, "lag", "is negative", "a time ≥ 0")
     }
 
-    /// The rotor by itself; `kick` \[m/s, rad/s\] it has been given.
+    /// The rotor as a degree of freedom; `kick` \[m/s, rad/s\] is its change by the kick.
     #[inline(always)]
     pub(super) fn inner(&self, rotor: &Rotor<R>, kick: R) -> Inner<R> {
         Inner { rate: rotor.rate, kick, inverse_inertia: R::ONE / self.inertia }
     }
 
-    /// \[rad²/s²\] the square of the frequency at which the rotor vibrates where the coordinate is held, with the
-    /// stiffness of a servo.
+    /// \[rad²/s²\] the square of the rotor's natural frequency with a fixed coordinate, including the stiffness of a
+    /// servo.
     pub(super) fn square(&self, servo: R) -> R {
         (self.stiffness + servo) / self.inertia
     }
 
-    /// The part of δ beyond half of the play.
+    /// The part of δ beyond half of the backlash.
     #[inline(always)]
     fn dead(&self, ahead: R) -> R {
         let half = R::HALF * self.play;
@@ -112,7 +113,7 @@ impl<R: Real> Gear<R> {
 
 /// A coordinate that a rotor drives.
 pub(super) struct Geared<P: Geometry> {
-    /// Its value is precise near that at the end of the step before, not unwrapped.
+    /// Its value is precise near that at the end of the last step, not unwrapped.
     coordinate: Coordinate<P>,
     gear: Gear<P::Real>,
 }
@@ -129,7 +130,7 @@ impl<P: Geometry> Geared<P> {
         rotor.ahead - (self.coordinate.value - rotor.last)
     }
 
-    /// \[N, N·m\] what pulls the coordinate after the rotor, and the rotor back.
+    /// \[N, N·m\] the force of the gear on the coordinate, and its opposite on the rotor.
     #[inline(always)]
     fn pull(&self, rotor: &Rotor<P::Real>) -> P::Real {
         self.gear.stiffness * self.gear.dead(self.ahead(rotor))
@@ -141,7 +142,7 @@ impl<P: Geometry> Geared<P> {
         if rotor.begun { rotor.rate } else { seen.rate(&self.coordinate.direction(seen)) }
     }
 
-    /// Brings the rotor to this pose; the coordinate's value is `next` for the poses after it.
+    /// Updates the rotor at this pose; the coordinate's value is `next` for the following poses.
     #[inline(always)]
     pub(super) fn settle(&self, seen: &Seen<'_, P>, next: P::Real, rotor: &mut Rotor<P::Real>) {
         rotor.ahead = self.ahead(rotor);
@@ -155,7 +156,7 @@ impl<P: Geometry> Geared<P> {
         seen.pull(&self.coordinate.direction(seen), -self.pull(rotor))
     }
 
-    /// \[J\] of gear and rotor.
+    /// \[J\] the energy of gear and rotor.
     pub(super) fn energy(&self, seen: &Seen<'_, P>, rotor: &Rotor<P::Real>) -> P::Real {
         let (beyond, rate) = (self.gear.dead(self.ahead(rotor)), self.rate(seen, rotor));
         let twice = self.gear.stiffness * (beyond * beyond) + self.gear.inertia * (rate * rate);
@@ -172,7 +173,7 @@ impl<P: Geometry> Geared<P> {
         self.coordinate.bent(seen, self.pull(rotor).abs(), visit)
     }
 
-    /// That of the gear, which never pulls its teeth apart.
+    /// The damper of the gear, which never pulls its teeth apart.
     #[inline(always)]
     pub(super) fn damper(&self, seen: &Seen<'_, P>, rotor: &Rotor<P::Real>) -> Damper<P> {
         let (pull, zero) = (self.pull(rotor), P::Real::ZERO);
@@ -189,7 +190,8 @@ impl<P: Geometry> Geared<P> {
         damper.within(P::Real::pick(forward, least, pull), P::Real::pick(forward, pull, most))
     }
 
-    /// What gear and effort without damping and lag give to the rotor in the time `h` \[s\]; it is given that.
+    /// Applies the gear, and the effort without damping and lag, to the rotor for the time `h` \[s\]; returns the
+    /// change.
     #[inline(always)]
     pub(super) fn kick(
         &self,
@@ -207,8 +209,8 @@ impl<P: Geometry> Geared<P> {
         kick
     }
 
-    /// Drives and damps the rotor for the time `h` \[s\] after the kick that is part of the same motion: the flow of
-    /// `m·v̇ = m·kick/h + τ`. `place` is that of the rotor.
+    /// Drives and damps the rotor for the time `h` \[s\], including the kick: the flow of `m·v̇ = m·kick/h + τ`.
+    /// `place` is the rotor's angle.
     #[inline(always)]
     pub(super) fn drive(
         &self,
@@ -256,19 +258,19 @@ impl<P: Geometry> Geared<P> {
         self.coordinate.value
     }
 
-    /// \[m, rad\] where the rotor is.
+    /// \[m, rad\] the rotor's angle.
     #[inline(always)]
     pub(super) fn place(&self, rotor: &Rotor<P::Real>) -> P::Real {
         self.coordinate.value + self.ahead(rotor)
     }
 
-    /// Moves the rotor on by `h` \[s\].
+    /// Advances the rotor by `h` \[s\].
     #[inline(always)]
     pub(super) fn advance(&self, h: P::Real, rotor: &mut Rotor<P::Real>) {
         rotor.ahead = rotor.ahead + h * rotor.rate;
     }
 
-    /// What it shows: torque of the gear, effort, twist, rate of the rotor.
+    /// Its outputs: torque of the gear, effort, torsion angle, rate of the rotor.
     pub(super) fn read(&self, quantity: usize, rotor: &Rotor<P::Real>) -> P::Real {
         match quantity {
             0 => self.pull(rotor),

@@ -1,4 +1,4 @@
-//! A row of a table as others see it, and what is done with rows.
+//! A row of a table for callers, and the operations on rows.
 
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
@@ -9,24 +9,24 @@ use crate::laws::interaction::{Damper, Inner, Quantity, Springs};
 use crate::record::Record;
 use crate::words::WordVisitor;
 
-/// What an evaluation does with laws beside adding their records.
+/// The options of an evaluation of laws.
 #[derive(Clone, Copy, Debug)]
 pub struct Act<R> {
-    /// Whether memories are settled first.
+    /// Whether memories are updated first.
     pub settle: bool,
-    /// \[s\] the step by which memories are brought on before that.
+    /// \[s\] the step by which memories are advanced before that.
     pub advance: Option<R>,
     /// Whether dampers act as forces.
     pub damped: bool,
 }
 
-/// A pass over dampers, which laws hand theirs to.
+/// A damper pass for laws.
 pub trait DamperPass<P: Geometry> {
-    /// \[s\] for how long dampers act in it.
+    /// \[s\] the duration of the dampers' action in it.
     fn time(&self) -> P::Real;
-    /// What a law between two bodies sees in the pass.
+    /// The ends of a law between two bodies in the pass.
     fn seen(&self, bodies: [BodyIndex; 2]) -> Option<Seen<'_, P>>;
-    /// The dampers of a law act, each with its share, on the law's own freedom, too.
+    /// Applies the dampers of a law, each with its weight, also to the law's internal degree of freedom.
     fn act(
         &mut self,
         bodies: [BodyIndex; 2],
@@ -34,7 +34,7 @@ pub trait DamperPass<P: Geometry> {
         shares: &[Share<P::Real>],
         inner: Option<&mut Inner<P::Real>>,
     );
-    /// A damper acts along the directions of a law and of its branches.
+    /// Applies a damper along the directions of a law and of its branches.
     fn act_along(
         &mut self,
         bodies: [BodyIndex; 2],
@@ -43,13 +43,13 @@ pub trait DamperPass<P: Geometry> {
     );
 }
 
-/// A row of a table with its memory: what those ask who look at laws outside a step.
+/// A row of a table with its memory, for callers outside a step.
 pub trait Row<P: Geometry> {
     /// The law's name.
     fn name(&self) -> &'static str;
     /// A and B.
     fn bodies(&self) -> [BodyIndex; 2];
-    /// How many dampers it has.
+    /// The number of its dampers.
     fn dampers(&self) -> usize;
     /// [`Interaction::record`](crate::laws::Interaction::record).
     fn record(&self, seen: &Seen<'_, P>) -> Option<Record<P::Space>>;

@@ -1,8 +1,8 @@
-//! What drives a coordinate: the effort of a motor with its inner loop.
+//! The effort of a motor with its inner loop on a coordinate.
 //!
-//! `(input u, place y, rate v) => effort τ = gain·u + d·(r₀ − v)`, within ±most, `r₀ = feed·u`, with a stiffness p
-//! `r₀ = u̇ + p/d·(u − y)`: a torque, a voltage behind a winding without inductance (`d = K²/R`, `feed = 1/K`; Krishnan 2001,
-//! ch. 2), a servo of velocity or position. The bound holds for the sum, and d limits no step.
+//! `(input u, position y, rate v) => effort τ = gain·u + d·(r₀ − v)`, within ±most, `r₀ = feed·u`, with a stiffness p
+//! `r₀ = u̇ + p/d·(u − y)`: a torque, a voltage at a winding without inductance (`d = K²/R`, `feed = 1/K`; Krishnan
+//! 2001, ch. 2), a servo of velocity or position. The bound applies to the sum, and d does not limit the step.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -26,7 +26,7 @@ pub(super) struct Effort<R> {
 }
 
 impl<R: Real> Effort<R> {
-    /// Refuses constants that drive nothing.
+    /// Refuses invalid constants.
     pub(super) fn check(&self) -> Result<(), Wrong> {
         let zero = R::ZERO;
         let not_negative =
@@ -34,7 +34,7 @@ impl<R: Real> Effort<R> {
         not_negative(self.stiffness, "servo_stiffness")?;
         not_negative(self.damping, "servo_damping")?;
         let damped = self.damping > zero || self.stiffness == zero;
-        Wrong::unless(damped, "servo_damping", "is 0 beside a stiffness", "a number > 0")?;
+        Wrong::unless(damped, "servo_damping", "is 0 with a stiffness", "a number > 0")?;
         Wrong::unless(self.most > zero, "most", "is not positive", "a number > 0")
     }
 
@@ -48,7 +48,7 @@ impl<R: Real> Effort<R> {
         rate + signal.rate + self.stiffness / self.damping * (signal.value - place)
     }
 
-    /// Within its bounds.
+    /// The effort clamped to its bounds.
     #[inline(always)]
     pub(super) fn bounded(&self, effort: R) -> R {
         let effort = R::pick(self.most.less_than(effort), self.most, effort);
@@ -80,13 +80,13 @@ impl<P: Geometry> Servo<P> {
         damper.towards(self.towards).within(-self.effort.most, self.effort.most)
     }
 
-    /// That of its stiffness, and of the effort that turns with the bodies.
+    /// The tangent of its stiffness, and of the effort that rotates with the bodies.
     pub(super) fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2] {
         visit(self.effort.stiffness, &self.coordinate.direction(seen));
         self.coordinate.bent(seen, self.effort(seen).abs(), visit)
     }
 
-    /// \[N, N·m\] what it gives along the coordinate.
+    /// \[N, N·m\] its effort along the coordinate.
     pub(super) fn effort(&self, seen: &Seen<'_, P>) -> P::Real {
         let damper = self.damper(seen);
         -damper.tension(seen.rate(&damper.direction))

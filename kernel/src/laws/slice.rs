@@ -1,4 +1,4 @@
-//! The rows of one law, one after the other: what every table does, wherever its rows lie.
+//! The rows of one law, one after the other: common to all tables, wherever their rows are stored.
 
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
@@ -14,13 +14,13 @@ use crate::real::Real as _;
 use crate::record::{Record, Wrench, apply};
 use crate::words::{Word, WordSource, WordVisitor, Words as _};
 
-/// The shares of a row's dampers.
+/// The weights of a row's dampers.
 #[must_use]
 pub fn shares_of<P: Geometry, T: Interaction<P>>(_: &T) -> SharesOf<P, T> {
     T::Dampers::of(Share::ALONE)
 }
 
-/// Adds the records of the rows in order; the first that is undefined otherwise.
+/// Adds the records of the rows in order; fails with the first undefined one.
 ///
 /// # Errors
 /// The row.
@@ -71,7 +71,7 @@ pub fn act<P: Geometry, T: Interaction<P>>(
     Ok(())
 }
 
-/// Lets the dampers of the rows act, in descending order with `reverse`.
+/// Applies the dampers of the rows, in descending order with `reverse`.
 #[inline(always)]
 pub fn sweep<P: Geometry, T: Interaction<P>>(
     rows: &[T],
@@ -130,7 +130,7 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
     }
 }
 
-/// Looks at a row.
+/// Passes a row to `look`.
 pub fn look<P: Geometry, T: Interaction<P>>(
     rows: &[T],
     row: usize,
@@ -147,12 +147,12 @@ pub fn visit<P: Geometry, T: Interaction<P>>(states: &[T::State], visitor: &mut 
     states.iter().for_each(|state| state.visit(&mut Visitor(visitor)));
 }
 
-/// Takes memories from a source.
+/// Reads memories from a source.
 pub fn fill<P: Geometry, T: Interaction<P>>(states: &mut [T::State], source: &mut dyn WordSource) {
     states.iter_mut().for_each(|state| state.fill(&mut Source(source)));
 }
 
-/// The law's name where its memory asks something of a scheme, and what.
+/// The law's name and its memory's requirement on a scheme, if any.
 #[must_use]
 pub fn memory<P: Geometry, T: Interaction<P>>(rows: &[T]) -> Option<(&'static str, Need)> {
     let need = match (T::INNER, T::ADVANCES, T::SLIPS) {
@@ -164,7 +164,7 @@ pub fn memory<P: Geometry, T: Interaction<P>>(rows: &[T]) -> Option<(&'static st
     (!rows.is_empty()).then_some((T::NAME, need))
 }
 
-/// A visitor known by its table of functions.
+/// Adapts a visitor given as a trait object.
 struct Visitor<'v>(&'v mut dyn WordVisitor);
 
 impl WordVisitor for Visitor<'_> {

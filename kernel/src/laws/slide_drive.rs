@@ -1,4 +1,4 @@
-//! A rotor behind a gear that moves one body past another: [`super::Rotor`] of the travel.
+//! A rotor behind a gear that translates one body relative to another: [`super::Rotor`] of the translation.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -9,33 +9,33 @@ use crate::laws::servo::Effort;
 use crate::record::Record;
 
 law! {
-    /// A travel of the second body past the first along an axis, driven by a rotor behind a gear.
+    /// A translation of the second body relative to the first along an axis, driven by a rotor behind a gear.
     pub struct SlideDrive = "slide-drive" {
-        /// A point of the first body and the point of the second one that is moved past it.
+        /// A point of the first body and the driven point of the second body.
         points: Points,
-        /// Axis of the travel.
+        /// Axis of the translation.
         axis: Normal,
         /// Input of the drive.
         input: Signal,
-        /// Effort per unit of the input: 1 of a torque or a force, the motor's constant of a current.
+        /// Effort per unit of the input: 1 for a torque or a force, the motor constant for a current.
         gain: Number = 0.0,
-        /// Stiffness of a servo of position.
+        /// Stiffness of a position servo.
         servo_stiffness: Number("N/m") = 0.0,
-        /// Damping of a servo; constant² / resistance of a winding.
+        /// Damping of a servo; for a winding constant² / resistance.
         servo_damping: Number("N·s/m") = 0.0,
-        /// Rate per unit of the input at which a servo does nothing: 1 of a velocity, 1 / constant of a voltage.
+        /// Rate per unit of the input at which the servo's effort is 0: 1 for a velocity, 1 / constant for a voltage.
         feed: Number = 0.0,
         /// Largest effort.
         most: Number("N") = 1e30,
-        /// Time in which the effort follows what is asked for; inductance / resistance of a winding.
+        /// Time constant of the effort; for a winding inductance / resistance.
         lag: Number("s") = 0.0,
-        /// Inertia of the rotor times the square of the ratio of the gear.
+        /// Inertia of the rotor times the square of the gear ratio.
         inertia: Number("kg"),
         /// Stiffness of the gear at its output.
         stiffness: Number("N/m"),
         /// Damping of the gear at its output.
         damping: Number("N·s/m") = 0.0,
-        /// Play of the gear at its output, from one flank to the other.
+        /// Backlash of the gear at its output, from one flank to the other.
         play: Number("m") = 0.0,
     }
 }

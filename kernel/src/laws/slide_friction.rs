@@ -1,4 +1,4 @@
-//! Dry friction of a travel along an axis, which sticks: [`super::Slip`] of the travel.
+//! Dry friction of a translation along an axis, with sticking: [`super::Slip`] of the translation.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -10,19 +10,19 @@ use crate::record::Record;
 law! {
     /// Dry friction between two bodies that slide along an axis.
     pub struct SlideFriction = "slide-friction" {
-        /// A point of the first body and the point of the second one that slides past it.
+        /// A point of the first body and the sliding point of the second body.
         points: Points,
-        /// Axis of the travel.
+        /// Axis of the translation.
         axis: Normal,
         /// Force of sliding friction at high rates.
         coulomb: Number("N"),
-        /// Force at which sliding begins from rest, at least as large.
+        /// Force at which sliding begins from rest, not below `coulomb`.
         breakaway: Number("N"),
         /// Rate at which the force is midway between `breakaway` and `coulomb`.
         stribeck: Number("m/s") = 0.01,
-        /// Elastic displacement at the force of breakaway.
+        /// Elastic displacement at the breakaway force.
         give: Number("m") = 1e-4,
-        /// Damping of the elastic displacement; with it the force stays within the limit.
+        /// Damping of the elastic displacement; the force with damping stays within the friction limit.
         damping: Number("N·s/m") = 0.0,
         /// Viscous friction.
         viscous: Number("N·s/m") = 0.0,

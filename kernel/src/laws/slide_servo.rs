@@ -1,4 +1,4 @@
-//! A servo that moves one body past another: [`super::servo`] of the travel, as a damper with bounds.
+//! A servo that translates one body relative to another: [`super::servo`] of the translation, as a damper with bounds.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -9,19 +9,19 @@ use crate::real::Real;
 use crate::record::Record;
 
 law! {
-    /// A travel of the second body past the first along an axis, driven by a servo without a rotor.
+    /// A translation of the second body relative to the first along an axis, driven by a servo without a rotor.
     pub struct SlideServo = "slide-servo" {
-        /// A point of the first body and the point of the second one that is moved past it.
+        /// A point of the first body and the driven point of the second body.
         points: Points,
-        /// Axis of the travel.
+        /// Axis of the translation.
         axis: Normal,
         /// Input of the servo.
         input: Signal,
-        /// Stiffness of a servo of position.
+        /// Stiffness of a position servo.
         servo_stiffness: Number("N/m") = 0.0,
         /// Damping of the servo.
         servo_damping: Number("N·s/m"),
-        /// Rate per unit of the input at which the servo does nothing: 1 of a velocity.
+        /// Rate per unit of the input at which the servo's effort is 0: 1 for a velocity.
         feed: Number = 0.0,
         /// Largest effort.
         most: Number("N") = 1e30,

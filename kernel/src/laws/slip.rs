@@ -1,10 +1,10 @@
-//! Dry friction of a coordinate, which sticks: a spring that slips.
+//! Dry friction of a coordinate, with sticking: a spring that slips.
 //!
-//! `z = q − s ↦ tension k·z`, `k = F/give`; where `|k·z|` exceeds the limit F(v), s follows the coordinate q
-//! (Prandtl 1928; Dupont, Hayward, Armstrong, Altpeter, IEEE TAC 47 (2002) 787). What a boundary returns to the
-//! limit is lost: it takes energy at any step, holds still at rest, and remembers s. The limit is
+//! `z = q − s ↦ tension k·z`, `k = F/give`; where `|k·z|` exceeds the limit F(v), s follows the coordinate q (Prandtl
+//! 1928; Dupont, Hayward, Armstrong, Altpeter, IEEE TAC 47 (2002) 787). The energy above the limit is dissipated at a
+//! boundary: it dissipates at any step, holds without creep at rest, and its memory is s. The limit is
 //! `F(v) = coulomb + (breakaway − coulomb)/(1 + (v/stribeck)²)` (Hess & Soom, J. Tribology 112 (1990) 147) at the mean
-//! rate of the step before.
+//! rate of the last step.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -14,14 +14,14 @@ use crate::real::Real;
 use crate::record::Record;
 use crate::words::{WordSource, WordVisitor, Words};
 
-/// What friction remembers of its coordinate.
+/// The memory of friction on its coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slip<R> {
-    /// \[m, rad\] the value at which its give is 0.
+    /// \[m, rad\] the value at which its elastic deflection is 0.
     pub rest: R,
-    /// \[m, rad\] the value at the end of the step before.
+    /// \[m, rad\] the value at the end of the last step.
     pub last: R,
-    /// \[1\] the part of the difference of breakaway and Coulomb friction that is in the limit.
+    /// \[1\] the fraction of the difference of breakaway and Coulomb friction in the limit.
     pub more: R,
 }
 
@@ -42,7 +42,7 @@ impl<R: Real> Words for Slip<R> {
     }
 }
 
-/// The constants of a friction, in N, m or N·m, rad.
+/// The constants of friction, in N, m or N·m, rad.
 #[derive(Clone, Copy)]
 pub(super) struct Friction<R> {
     pub(super) coulomb: R,
@@ -54,7 +54,7 @@ pub(super) struct Friction<R> {
 }
 
 impl<R: Real> Friction<R> {
-    /// Refuses constants that make no friction.
+    /// Refuses invalid constants.
     pub(super) fn check(&self) -> Result<(), Wrong> {
         let zero = R::ZERO;
         Wrong::unless(self.coulomb >= zero, "coulomb", "is negative", "a number ≥ 0")?;
@@ -73,7 +73,7 @@ pub(super) struct Rubbing<P: Geometry> {
     coordinate: Coordinate<P>,
     friction: Friction<P::Real>,
     stiffness: P::Real,
-    /// \[N, N·m\] of its give.
+    /// \[N, N·m\] of its elastic deflection.
     tension: P::Real,
     /// \[N, N·m\]
     limit: P::Real,
@@ -92,7 +92,7 @@ impl<P: Geometry> Rubbing<P> {
         Self { coordinate, friction, stiffness, tension, limit }
     }
 
-    /// Brings the slip to the limit.
+    /// Limits the deflection.
     #[inline(always)]
     pub(super) fn settle(&self, slip: &mut Slip<P::Real>) {
         let (value, give) = (self.coordinate.value, self.limit / self.stiffness);
@@ -100,7 +100,7 @@ impl<P: Geometry> Rubbing<P> {
         slip.rest = P::Real::pick(self.tension.less_than(-self.limit), value + give, slip.rest);
     }
 
-    /// Settles it, and brings the limit on by a step of `h` \[s\].
+    /// Limits the deflection, and advances the limit by a step of `h` \[s\].
     #[inline(always)]
     pub(super) fn advance(&self, h: P::Real, slip: &mut Slip<P::Real>) {
         self.settle(slip);
@@ -125,12 +125,12 @@ impl<P: Geometry> Rubbing<P> {
         self.coordinate.bent(seen, self.tension.abs(), visit)
     }
 
-    /// That of its give and the viscous one.
+    /// The damper of the elastic deflection and the viscous one.
     #[inline(always)]
     pub(super) fn dampers(&self, seen: &Seen<'_, P>, visit: &mut impl FnMut(Damper<P>)) {
         let (tension, limit) = (self.tension, self.limit);
         let direction = self.coordinate.direction(seen);
-        // Give and its damping together stay within the limit.
+        // The spring and damper forces together stay within the limit.
         let of_give = Damper::new(self.friction.damping, direction);
         visit(of_give.within(-limit - tension, limit - tension));
         visit(Damper::new(self.friction.viscous, direction));

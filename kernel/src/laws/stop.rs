@@ -1,7 +1,7 @@
-//! What stops a coordinate: a spring with damping of Hunt and Crossley beyond an end of its range.
+//! The stop of a coordinate: a spring with Hunt–Crossley damping beyond an end of its range.
 //!
-//! `(coordinate, x beyond its range, stiffness k, coefficient a) => tension k·x·(1 + a·|ẋ|), which never pulls towards
-//! the end` (Hunt & Crossley, J. Appl. Mech. 42 (1975) 440).
+//! `(coordinate, x beyond its range, stiffness k, coefficient a) => tension k·x·(1 + a·|ẋ|)`, which never pulls towards
+//! the end (Hunt & Crossley, J. Appl. Mech. 42 (1975) 440).
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -13,13 +13,13 @@ use crate::record::Record;
 /// A coordinate at its stop.
 pub(super) struct Stopped<P: Geometry> {
     pub(super) coordinate: Coordinate<P>,
-    /// \[m, rad\] beyond the range: above 0 at its upper end, below 0 at its lower one, 0 within.
+    /// \[m, rad\] the excess over the range: above 0 at its upper end, below 0 at its lower one, 0 within.
     pub(super) beyond: P::Real,
     stiffness: P::Real,
 }
 
 impl<P: Geometry> Stopped<P> {
-    /// At both ends of a range.
+    /// For both ends of a range.
     #[inline(always)]
     pub(super) fn within(
         coordinate: Coordinate<P>,
@@ -33,7 +33,7 @@ impl<P: Geometry> Stopped<P> {
         Self { coordinate, beyond, stiffness }
     }
 
-    /// What its spring does.
+    /// The record of its spring.
     #[inline(always)]
     pub(super) fn record(&self, seen: &Seen<'_, P>) -> Record<P::Space> {
         if self.is_free() {
@@ -47,7 +47,7 @@ impl<P: Geometry> Stopped<P> {
         P::Real::HALF * (self.stiffness * (self.beyond * self.beyond))
     }
 
-    /// As if it were stopped.
+    /// As if it were in contact.
     pub(super) fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2] {
         visit(self.stiffness, &self.coordinate.direction(seen));
         self.coordinate.bent(seen, (self.stiffness * self.beyond).abs(), visit)
@@ -66,19 +66,19 @@ impl<P: Geometry> Stopped<P> {
         damper.within(P::Real::pick(upper, -tension, least), P::Real::pick(upper, most, -tension))
     }
 
-    /// Whether it is within its range; lanes are not asked.
+    /// Whether it is within its range; always `false` for lanes.
     #[inline(always)]
     fn is_free(&self) -> bool {
         P::Real::LANES == 1 && self.beyond == P::Real::ZERO
     }
 
-    /// \[m, rad\] how deep it is beyond the range.
+    /// \[m, rad\] the depth beyond the range.
     pub(super) fn depth(&self) -> P::Real {
         self.beyond.abs()
     }
 }
 
-/// Refuses constants that make no stop.
+/// Refuses invalid constants.
 pub(super) fn check<R: Real>(
     [from, to]: [R; 2],
     stiffness: R,

@@ -1,8 +1,8 @@
-//! Springs and dampers of a coordinate by a function of it, or of its rate.
+//! Springs and dampers of a coordinate, given by a function of it or of its rate.
 //!
-//! `(coordinate q, F) => tension F(q − rest)` with the area as energy, or a damper with the tension F of its rate. Such a
-//! damper acts as its tangent at the rate r where it begins, `F(r) + F'(r)·(ṙ − r)`, so the order is 2, and takes no more
-//! than all of the rate, so that no step is too long.
+//! `(coordinate q, F) => tension F(q − rest)` with the area as energy, or a damper with the tension F of its rate. Such
+//! a damper acts as its tangent at the initial rate r, `F(r) + F'(r)·(ṙ − r)`, so the order is 2, and at most stops the
+//! rate, so it is stable at any step.
 
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
@@ -42,17 +42,18 @@ impl<P: Geometry, const N: usize> Spring<'_, P, N> {
         self.curve.area(self.extension()) - self.curve.area(P::Real::ZERO)
     }
 
-    /// As if it were where it is steepest.
+    /// At its steepest slope.
     pub(super) fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2] {
         visit(self.curve.steepest(), &self.coordinate.direction(seen));
         self.coordinate.bent(seen, self.tension().abs(), visit)
     }
 }
 
-/// Where a curve is flat, its damper has this share of its secant as the coefficient: one without a coefficient is idle.
+/// Where a curve is flat, its damper uses this fraction of its secant as the coefficient: without a coefficient it
+/// would be idle.
 const LEAST_SLOPE: f64 = 1.0 / 1024.0;
 
-/// The damper of a coordinate by its force over its rate.
+/// The damper of a coordinate from its force over its rate.
 #[inline(always)]
 pub(super) fn brake<P: Geometry, const N: usize>(
     seen: &Seen<'_, P>,
@@ -68,7 +69,7 @@ pub(super) fn brake<P: Geometry, const N: usize>(
     Damper::new(coefficient, direction).towards(towards).braking()
 }
 
-/// \[m/s, rad/s\] below this a rate is rest.
+/// \[m/s, rad/s\] below this a rate counts as 0.
 const REST: f64 = 1e-9;
 
 /// 1 over a rate; 0 at rest.
@@ -77,7 +78,7 @@ pub(super) fn inverse_of_rate<R: Real>(rate: R) -> R {
     R::pick(rate.abs().less_than(R::from_f64(REST)), R::ZERO, rate).reciprocal_or_zero()
 }
 
-/// A damper that takes the tension F ≥ 0 from a rate, whatever that is.
+/// A damper with the tension F ≥ 0, independent of the rate.
 #[inline(always)]
 pub(super) fn drag<P: Geometry>(
     direction: Direction<P::Space>,
@@ -89,17 +90,17 @@ pub(super) fn drag<P: Geometry>(
     Damper::new(coefficient, direction).towards(towards).braking()
 }
 
-/// Refuses a spring's table that falls.
+/// Refuses a decreasing table of a spring.
 pub(super) fn rising<R: Real, const N: usize>(
     curve: &Curve<R, N>,
     field: &'static str,
 ) -> Result<(), Wrong> {
     let mut pairs = curve.known().windows(2);
     let rises = pairs.all(|pair| matches!(pair, [before, after] if after[1] >= before[1]));
-    Wrong::unless(rises, field, "falls", "a table that never falls")
+    Wrong::unless(rises, field, "decreases", "a non-decreasing table")
 }
 
-/// Refuses a damper's table that falls, or is not 0 at rest.
+/// Refuses a table of a damper that decreases, or is not 0 at rest.
 pub(super) fn braking<R: Real, const N: usize>(
     curve: &Curve<R, N>,
     field: &'static str,

@@ -1,14 +1,13 @@
 //! The model: read-only constants of bodies and elements, in flash or on a heap.
 //!
-//! [`Model`] owns arrays whose lengths are const generics; a run-time-sized owner lives elsewhere
-//! and implements [`ModelOwner`] likewise. All work is done on [`ModelRef`], slices that either
-//! owner lends, so both step through the same code. [`Terms`] tells the compiler which kinds of
-//! element a model has at all: what it lacks leaves no code.
+//! [`Model`] owns arrays whose lengths are const generics; an owner sized at run time is defined elsewhere and also
+//! implements [`ModelOwner`]. All code works on [`ModelRef`], slices lent by either owner, so both are stepped by the
+//! same code. [`Terms`] states the kinds of element of a model at compile time: other kinds generate no code.
 //!
-//! Elements lie in groups, one per joint and one per raw element. A TSDA group is made of stars:
-//! a point of the first body joined to each of one to three points of the second. A revolute is
-//! two stars that share three points, a spherical joint one star of three, a raw TSDA one of one.
-//! As bushings either is one pair of points, a fixed joint three stars of a point each.
+//! Elements form groups, one per joint and one per raw element. A TSDA group consists of spring triples: a point of the
+//! first body joined to one to three points of the second. A revolute is two triples with three common points, a
+//! spherical joint one triple of three legs, a raw TSDA one of one. As bushings each of these is one pair of points, a
+//! fixed joint three pairs.
 
 mod owned;
 mod plan;
@@ -42,8 +41,8 @@ use crate::sources::SourceStep;
 
 /// The elements of one joint or one raw element: one record of force and torques.
 ///
-/// Its points lie together from `point` on: the first body's, one per star, then the second
-/// body's, `arms` for each star, or once where the stars share them.
+/// Its points are stored together from `point` on: the first body's, one per triple, then the second body's, `arms` for
+/// each triple, or once where the triples share them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Group {
@@ -55,13 +54,13 @@ pub struct Group {
     pub b: BodyIndex,
     /// Points of the first body, ≥ 1.
     pub stars: u8,
-    /// Points of the second body per star: 1 to 3; 1 or 2 on a line.
+    /// Points of the second body per triple: 1 to 3; 1 or 2 on a line.
     pub arms: u8,
-    /// Whether all stars share the second body's points.
+    /// Whether all triples share the second body's points.
     pub shared: bool,
     /// First point among the model's points.
     pub point: u16,
-    /// First element among the model's elements of this law; star by star, arm by arm.
+    /// First element among the model's elements of this law; triple by triple, leg by leg.
     pub element: u16,
     /// First of the elements' damping coefficients among the model's dampers.
     pub damper: DamperIndex,
@@ -83,13 +82,13 @@ impl Group {
         self.stars as usize + blocks * self.arms as usize
     }
 
-    /// The row of a star's first point among the model's points.
+    /// The row of a triple's first point among the model's points.
     #[inline(always)]
     pub(crate) const fn centre(&self, star: usize) -> usize {
         self.point as usize + star
     }
 
-    /// The row of a star's first point of the second body; its others follow.
+    /// The row of a triple's first point of the second body; its others follow.
     #[inline(always)]
     pub(crate) const fn tips(&self, star: usize) -> usize {
         let block = if self.shared { 0 } else { star };
@@ -101,7 +100,7 @@ impl Group {
 pub struct ModelRef<'m, P: Geometry, T: Terms<P>> {
     /// Bodies in scene order.
     pub bodies: &'m [Body<P::Space>],
-    /// \[m/s²\] the field of gravity, or nothing.
+    /// \[m/s²\] gravity, or empty.
     pub gravity: &'m [P::Vector],
     /// Groups in the order of their records' sums.
     pub groups: &'m [Group],
@@ -129,7 +128,7 @@ pub struct ModelRef<'m, P: Geometry, T: Terms<P>> {
     pub revolutes: &'m [Revolute<P::Space>],
     /// Universal joints of the groups.
     pub universals: &'m [Universal<P::Space>],
-    /// Sources that inputs follow.
+    /// Sources that drive inputs.
     pub sources: &'m [Source<P>],
     /// The list of laws, summed after all torsion springs.
     pub laws: &'m LawsIn<P, T>,
@@ -170,11 +169,11 @@ impl<P: Geometry, T: Terms<P>> core::fmt::Debug for ModelRef<'_, P, T> {
 pub type LawsIn<P, T> = <T as Terms<P>>::Laws;
 /// The memories of its laws.
 pub type StatesIn<P, T> = <LawsIn<P, T> as Laws<P>>::States;
-/// The shares of its laws' dampers.
+/// The weights of its laws' dampers.
 pub type SharesIn<P, T> = <LawsIn<P, T> as Laws<P>>::Shares;
 
 impl<'m, P: Geometry, T: Terms<P>> ModelRef<'m, P, T> {
-    /// Element `row` of a law, `None` where the model has no such one.
+    /// Element `row` of a law, `None` where the model has none.
     #[inline(always)]
     pub(crate) fn element(&self, law: Law, row: usize) -> Option<Element<'m, P::Space>> {
         match law {
@@ -187,8 +186,7 @@ impl<'m, P: Geometry, T: Terms<P>> ModelRef<'m, P, T> {
         }
     }
 
-    /// The directions in which a law's damper acts and how many they are, `None` where the model
-    /// has no such law.
+    /// The directions in which a law's damper acts and their number, `None` where the model has no such law.
     #[inline(always)]
     pub(crate) fn damped(
         &self,
@@ -215,7 +213,7 @@ impl<'m, P: Geometry, T: Terms<P>> ModelRef<'m, P, T> {
     }
 }
 
-/// Owns a model's constants and says how much memory a plant of it takes.
+/// Owns a model's constants and defines the memory of its plant.
 pub trait ModelOwner {
     /// The precision its constants are stored in.
     type Precision: Geometry;
@@ -225,7 +223,7 @@ pub trait ModelOwner {
     type PerBody<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per body of a model with dampers; a model without any may have none.
     type PerDampedBody<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
-    /// Memory of one turn count per torsion spring.
+    /// Memory of one revolution count per torsion spring.
     type PerTorsion: Clone + AsRef<[i32]> + AsMut<[i32]>;
     /// Memory of one window per load.
     type PerLoad: Clone + AsRef<[LoadWindow]> + AsMut<[LoadWindow]>;
@@ -233,9 +231,9 @@ pub trait ModelOwner {
     type PerInput<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per damper.
     type PerDamper<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
-    /// Memory of one `T` per pair of bodies of the plan, see [`Self::plan`].
+    /// Memory of one `T` per pair of bodies of the elimination order, see [`Self::plan`].
     type PerPair<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
-    /// Memory of one `T` per group, torsion spring and law of the plan.
+    /// Memory of one `T` per group, torsion spring and law of the elimination order.
     type PerHome<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per TSDA.
     type PerTsda<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
@@ -260,12 +258,12 @@ pub trait ModelOwner {
     fn per_input<T: Copy>(&self, value: T) -> Self::PerInput<T>;
     /// One `value` per damper.
     fn per_damper<T: Copy>(&self, value: T) -> Self::PerDamper<T>;
-    /// One `value` per pair of bodies of the plan.
+    /// One `value` per pair of bodies of the elimination order.
     fn per_pair<T: Copy>(&self, value: T) -> Self::PerPair<T>;
-    /// One `value` per group, torsion spring and law of the plan.
+    /// One `value` per group, torsion spring and law of the elimination order.
     fn per_home<T: Copy>(&self, value: T) -> Self::PerHome<T>;
-    /// In which order a scheme with a matrix eliminates the bodies; none where the model was built
-    /// without one, see [`Planned`].
+    /// The order in which a scheme with a matrix eliminates the bodies; empty where the model was built without one,
+    /// see [`Planned`].
     fn plan(&self) -> Plan<'_> {
         Plan::NONE
     }
@@ -283,7 +281,7 @@ pub type RealOf<M> = <<M as ModelOwner>::Precision as Geometry>::Real;
 pub type SpaceOf<M> = <<M as ModelOwner>::Precision as Geometry>::Space;
 /// The memories of a model's laws.
 pub type LawStates<M> = StatesIn<<M as ModelOwner>::Precision, <M as ModelOwner>::Terms>;
-/// The shares of the dampers of a model's laws.
+/// The weights of the dampers of a model's laws.
 pub type LawShares<M> = SharesIn<<M as ModelOwner>::Precision, <M as ModelOwner>::Terms>;
 /// The frame of a model's precision.
 pub type FrameOf<M> = <<M as ModelOwner>::Precision as Geometry>::Frame;

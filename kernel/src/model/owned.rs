@@ -21,8 +21,8 @@ use crate::sources::SourceStep;
 
 /// A model whose sizes are const generics. A kind that a scene lacks has count 0, the default.
 ///
-/// `SUMS` is the number of sums that a pass of dampers keeps apart from the velocities, one per body, where the
-/// precision has them: `BODIES` with dampers, 0 without. Its default is as many as dampers.
+/// `SUMS` is the number of sums that a damper pass keeps apart from the velocities, one per body, where the precision
+/// has them: `BODIES` with dampers, 0 without. Its default is the number of dampers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model<
     P: Geometry,
@@ -49,7 +49,7 @@ pub struct Model<
     pub bodies: [Body<P::Space>; BODIES],
     /// The bodies' states at t = 0.
     pub initial: [BodyState<P>; BODIES],
-    /// \[m/s²\] the field of gravity, or nothing.
+    /// \[m/s²\] gravity, or empty.
     pub gravity: [P::Vector; GRAVITY],
     /// Groups in the order of their records' sums.
     pub groups: [Group; GROUPS],
@@ -77,7 +77,7 @@ pub struct Model<
     pub revolutes: [Revolute<P::Space>; REVOLUTES],
     /// Universal joints of the groups.
     pub universals: [Universal<P::Space>; UNIVERSALS],
-    /// Sources that inputs follow.
+    /// Sources that drive inputs.
     pub sources: [Source<P>; SOURCES],
     /// The list of laws: a tuple of tables, each the rows of one law, see [`crate::laws`].
     pub laws: L,
@@ -126,47 +126,56 @@ impl<
         L,
     >
 {
-    /// Checks every index of the model; in a `const` the compiler does so.
+    /// Checks every index of the model; in a `const` at compile time.
     ///
     /// # Panics
-    /// Where a group, spring or load names a body, point, element or damper that is not there. A
-    /// step on a model that was not checked skips such an element.
+    /// Where a group, spring or load refers to a body, point, element or damper that does not exist. A step of an
+    /// unchecked model skips such an element.
     #[must_use]
     pub const fn checked(self) -> Self {
-        assert!(BODIES > 0, "a model has at least one body");
+        assert!(BODIES > 0, "a model needs at least one body");
         assert!(BODIES <= BodyIndex::FIRST_ANCHOR as usize, "a model has at most 65280 bodies");
         let sums = (DAMPERS > 0 || L::DAMPED) && <P::PassSum as PassSum<P::Space>>::APART;
-        assert!(!sums || SUMS >= BODIES, "a damped model has one sum per body: SUMS = BODIES");
-        assert!(GRAVITY <= 1, "a model has at most one field of gravity");
+        assert!(!sums || SUMS >= BODIES, "a damped model needs one sum per body: SUMS = BODIES");
+        assert!(GRAVITY <= 1, "a model has at most one gravity vector");
         let mut i = 0;
         while i < GROUPS {
             let group = &self.groups[i];
             check_pair(group.a, group.b, BODIES);
-            assert!(group.stars >= 1, "a group has at least one star");
-            assert!(group.law.takes_arms(group.arms), "a star has as many arms as its law knows");
+            assert!(group.stars >= 1, "a group needs at least one spring triple");
+            assert!(
+                group.law.takes_arms(group.arms),
+                "the law does not accept this number of legs"
+            );
             let bushing = matches!(group.law, Law::PointBushing);
-            assert!(!(bushing && group.shared), "a star of bushings has a point of its own");
+            assert!(!(bushing && group.shared), "point bushings cannot share points");
             let elements = group.elements();
-            assert!(group.point as usize + group.points() <= POINTS, "a group's points are there");
+            assert!(
+                group.point as usize + group.points() <= POINTS,
+                "a point of a group does not exist"
+            );
             let count = match group.law {
                 Law::Tsda => TSDAS,
                 Law::PointBushing => BUSHINGS,
                 Law::PointOnLine => LINES,
                 Law::Revolute => {
-                    assert!(elements == 1, "a revolute joint stands alone in its group");
+                    assert!(elements == 1, "a revolute joint needs a group of its own");
                     REVOLUTES
                 }
                 Law::Universal => {
-                    assert!(elements == 1, "a universal joint stands alone in its group");
+                    assert!(elements == 1, "a universal joint needs a group of its own");
                     UNIVERSALS
                 }
             };
-            assert!(group.element as usize + elements <= count, "a group's elements are there");
+            assert!(
+                group.element as usize + elements <= count,
+                "an element of a group does not exist"
+            );
             check_damper(group.damper, elements, DAMPERS);
             self.check_anchor(group.a);
             self.check_anchor(group.b);
             if let Some(row) = group.clearance.row() {
-                assert!(row < CLEARANCES, "a group's clearance is there");
+                assert!(row < CLEARANCES, "the clearance of a group does not exist");
             }
             i += 1;
         }
@@ -188,13 +197,16 @@ impl<
             );
             match &input.kind {
                 InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
-                    assert!(body.row() < BODIES, "an input's body is there");
+                    assert!(body.row() < BODIES, "the body of an input does not exist");
                 }
                 InputKind::JointTorque { a, b, .. } => check_pair(*a, *b, BODIES),
                 InputKind::Actuator { group, element } => {
-                    assert!((*group as usize) < GROUPS, "an actuator's group is there");
+                    assert!((*group as usize) < GROUPS, "the group of an actuator does not exist");
                     let elements = self.groups[*group as usize].elements();
-                    assert!((*element as usize) < elements, "an actuator's element is there");
+                    assert!(
+                        (*element as usize) < elements,
+                        "the element of an actuator does not exist"
+                    );
                 }
                 InputKind::Signal | InputKind::Anchor { .. } => {}
             }
@@ -203,16 +215,16 @@ impl<
         i = 0;
         while i < SOURCES {
             let source = &self.sources[i];
-            assert!((source.input.0 as usize) < INPUTS, "a source's input is there");
+            assert!((source.input.0 as usize) < INPUTS, "the input of a source does not exist");
             let knots = self.inputs[source.input.0 as usize].knots;
-            assert!(knots == 0, "an input follows a source or a table");
+            assert!(knots == 0, "an input has a source and a table");
             let end = source.knot as usize + source.knots as usize;
-            assert!(end <= KNOTS, "a source's knots are there");
+            assert!(end <= KNOTS, "a knot of a source does not exist");
             i += 1;
         }
         i = 0;
         while i < LOADS {
-            assert!(self.loads[i].body.row() < BODIES, "a load's body is there");
+            assert!(self.loads[i].body.row() < BODIES, "the body of a load does not exist");
             i += 1;
         }
         self
@@ -221,23 +233,23 @@ impl<
     /// Ground that an input moves names an input that moves ground.
     const fn check_anchor(&self, body: BodyIndex) {
         if let Some(row) = body.anchor_row() {
-            assert!(row < INPUTS, "an anchor's input is there");
+            assert!(row < INPUTS, "the input of an anchor does not exist");
             let moves = matches!(&self.inputs[row].kind, InputKind::Anchor { .. });
-            assert!(moves, "an anchor's input moves the ground");
+            assert!(moves, "the input of an anchor does not move the ground");
         }
     }
 }
 
 const fn check_pair(a: BodyIndex, b: BodyIndex, bodies: usize) {
-    assert!(a.is_world() || a.row() < bodies, "an element's first body is there");
-    assert!(b.is_world() || b.row() < bodies, "an element's second body is there");
+    assert!(a.is_world() || a.row() < bodies, "the first body of an element does not exist");
+    assert!(b.is_world() || b.row() < bodies, "the second body of an element does not exist");
     let ground = a.is_world() && b.is_world();
-    assert!(a.0 != b.0 && !ground, "an element joins two different bodies");
+    assert!(a.0 != b.0 && !ground, "an element must join two different bodies");
 }
 
 const fn check_damper(damper: DamperIndex, elements: usize, dampers: usize) {
     if let Some(row) = damper.row() {
-        assert!(row + elements <= dampers, "an element's damping coefficient is there");
+        assert!(row + elements <= dampers, "the damping coefficient of an element does not exist");
     }
 }
 

@@ -1,32 +1,32 @@
-//! The order in which bodies are eliminated, and the pairs that this fills.
+//! The elimination order of the bodies, and the fill-in of pairs.
 //!
-//! `(order, pairs, targets, homes) => plan`, plain index arrays that lie in flash with the model. Found
-//! when a model is built; here they are only checked and followed.
+//! `(order, pairs, targets, homes) => plan`, plain index arrays stored in flash with the model. Computed when a model
+//! is built; here they are only checked and used.
 
-/// Where the matrix of a model has blocks, and in which order its bodies are eliminated.
+/// The blocks of a model's matrix, and the order in which its bodies are eliminated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Plan<'m> {
     /// Every body once, with the number of pairs that are eliminated with it.
     pub order: &'m [[u16; 2]],
-    /// Two bodies whose block is not empty, also those that elimination fills: the one that is eliminated
-    /// first, then the other; sorted by the places of these in the order.
+    /// Pairs of bodies whose block is not empty, including fill-in: the one that is eliminated first, then the other;
+    /// sorted by their positions in the order.
     pub pairs: &'m [[u16; 2]],
-    /// For each body in order, for each two pairs of it that are eliminated with it, (second, first),
-    /// (third, first), (third, second) …: the pair that their product changes.
+    /// For each body in order, for each two of its pairs that are eliminated with it, (second, first), (third, first),
+    /// (third, second) …: the pair that their product changes.
     pub targets: &'m [u16],
-    /// For each group and then each torsion spring the pair of its bodies; [`Plan::GROUND`] with the ground.
+    /// For each group and then each torsion spring the slot of its bodies' pair; [`Plan::GROUND`] with the ground.
     pub homes: &'m [u16],
 }
 
 impl Plan<'_> {
-    /// The home of what has one body only.
+    /// The slot of an element with one body only.
     pub const GROUND: u16 = u16::MAX;
-    /// The plan of a model that has none.
+    /// The empty plan.
     pub const NONE: Self = Self { order: &[], pairs: &[], targets: &[], homes: &[] };
 
-    /// Whether it is one for a model of so many bodies, and for these ends of its groups and torsion
-    /// springs: then a solution along it is that of the whole matrix.
+    /// Whether it is valid for a model with the given number of bodies, and for these ends of its groups and torsion
+    /// springs: then a solution by it is that of the whole matrix.
     #[must_use]
     pub fn fits(&self, bodies: usize, ends: impl Iterator<Item = [u16; 2]>) -> bool {
         let is_ground = |body: u16| usize::from(body) >= bodies;
@@ -87,7 +87,7 @@ impl Plan<'_> {
 mod tests {
     use super::*;
 
-    /// A ring of four bodies, the first on the ground: one pair is filled.
+    /// A ring of four bodies, the first on the ground: one pair is fill-in.
     const RING: Plan<'static> = Plan {
         order: &[[0, 2], [1, 2], [2, 1], [3, 0]],
         pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
@@ -109,7 +109,7 @@ mod tests {
         assert!(!Plan { targets: &[3], ..RING }.fits(4, ENDS.into_iter()));
         assert!(!Plan { targets: &[4, 3], ..RING }.fits(4, ENDS.into_iter()));
         assert!(!Plan { homes: &[Plan::GROUND, 0, 2, 4, 2], ..RING }.fits(4, ENDS.into_iter()));
-        // Without what elimination fills there is nowhere to put it.
+        // Fill-in without a slot.
         let order = &[[0, 2], [1, 1], [2, 1], [3, 0]];
         let unfilled = Plan { order, pairs: &[[0, 1], [0, 3], [1, 2], [2, 3]], ..RING };
         let homes = &[Plan::GROUND, 0, 2, 3, 1];

@@ -1,8 +1,7 @@
-//! A model with the plan of a matrix: for schemes with a linear solve.
+//! A model with the elimination order of a matrix: for schemes with a linear solve.
 //!
-//! `(pointer to a model, index arrays) => model`. The arrays' sizes are const generics: those of the order of
-//! elimination, of the pairs of bodies, of the pairs that elimination changes and of groups and torsion
-//! springs.
+//! `(pointer to a model, index arrays) => model`. The arrays' sizes are const generics: those of the elimination order,
+//! of the pairs of bodies, of the pairs that elimination changes and of groups and torsion springs.
 
 use core::ops::Deref;
 
@@ -10,7 +9,7 @@ use crate::body::BodyState;
 use crate::model::plan::Plan;
 use crate::model::{ModelOwner, ModelRef};
 
-/// A model and the order in which its bodies are eliminated, see [`Plan`].
+/// A model and the elimination order of its bodies, see [`Plan`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planned<
     H,

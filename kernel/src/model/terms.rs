@@ -1,4 +1,4 @@
-//! Which kinds of element a model has, told to the compiler: what it lacks leaves no code.
+//! The kinds of element of a model, known at compile time: other kinds generate no code.
 
 use core::marker::PhantomData;
 
@@ -8,7 +8,7 @@ use crate::laws::Laws;
 /// Carries a type without owning one.
 type Named<L> = PhantomData<fn() -> L>;
 
-/// Which kinds of element a model has. What is `false` leaves no code in a step.
+/// The kinds of element of a model. A kind that is `false` generates no code in a step.
 pub trait Terms<P: Geometry>: 'static {
     /// The list of laws.
     type Laws: Laws<P>;
@@ -37,7 +37,7 @@ pub trait Terms<P: Geometry>: 'static {
     const UNIVERSALS: bool;
     /// Sources of inputs other than tables over time.
     const SOURCES: bool;
-    /// All of these but the sources, which are no part of an evaluation.
+    /// All of these except the sources, which are not part of an evaluation.
     const ALL: bool = Self::GRAVITY
         && Self::LOADS
         && Self::TSDAS

@@ -1,4 +1,4 @@
-//! What of a plant does not depend on its scheme: compiled once per kind of model.
+//! The part of a plant that is independent of its scheme: compiled once per kind of model.
 //!
 //! `(model, h) => diagonals, windows, state; signals, state => base`.
 
@@ -52,7 +52,7 @@ where
     pub(crate) status: Status,
 }
 
-/// What the precision of the model that `H` points to keeps of its TSDAs.
+/// The reference data of TSDAs in the precision of the model that `H` points to.
 pub(crate) type PerTsda<H> =
     <<H as Deref>::Target as ModelOwner>::PerTsda<<PrecisionOf<H> as Geometry>::Rest>;
 /// The precision of the model that `H` points to.
@@ -136,7 +136,7 @@ where
         })
     }
 
-    /// Refuses laws whose memories a scheme does not bring on.
+    /// Refuses laws whose memories a scheme does not support.
     ///
     /// # Errors
     /// [`PlantError::Memory`].
@@ -152,7 +152,7 @@ where
         <H::Target as ModelOwner>::Terms::DAMPERS || self.model.view().laws.is_damped()
     }
 
-    /// The levers of joints that are damped as a whole.
+    /// The damping modes of joints that are damped as a whole.
     pub(crate) fn find_levers(&mut self, levers: &mut [Lever<PrecisionOf<H>>]) {
         place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
         let places = Places { frames: self.frames.as_ref(), signals: self.state.signals.as_ref() };
@@ -160,7 +160,7 @@ where
         self.ledger.stops = find(&self.model.view(), places, half, levers);
     }
 
-    /// What each damper has of its bodies' masses, and the weights of joints that are damped as a whole.
+    /// The weight of each damper, and the damping modes of joints that are damped as a whole.
     pub(crate) fn find_shares(&mut self, levers: &mut [Lever<PrecisionOf<H>>]) {
         place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
         let view = self.model.view();
@@ -175,7 +175,7 @@ where
         weigh(&view, shares, half, levers);
     }
 
-    /// Refuses what vibrates so fast that `ω·h` is beyond `most`.
+    /// Refuses frequencies for which `ω·h` exceeds `most`.
     ///
     /// # Errors
     /// [`PlantError::Stiff`] with the longest step \[s\].
@@ -186,7 +186,7 @@ where
         if holds { Ok(()) } else { Err(PlantError::Stiff((most / found).to_f64())) }
     }
 
-    /// What the matrix of a pencil has of each element.
+    /// Each element's part of the matrix, from the matrix weights.
     pub(crate) fn find_seats(
         &mut self,
         pencil: Pencil<RealOf<H::Target>>,
@@ -197,7 +197,7 @@ where
         solve::find(&self.model.view(), places, pencil, seats);
     }
 
-    /// Brings the signals of tables to the present step: the one that comes next.
+    /// Samples the signals of tables for the coming step.
     #[inline(always)]
     pub(crate) fn sample(&mut self) {
         if <H::Target as ModelOwner>::Terms::INPUTS {
@@ -225,15 +225,15 @@ where
         }
     }
 
-    /// Takes note of an input's new signal.
+    /// Records that an input has a new signal.
     #[inline(always)]
     fn change(&mut self, moves_ground: bool) {
         self.ledger.pushed = false;
         self.ledger.fresh &= !(moves_ground || self.model.view().laws.is_driven());
     }
 
-    /// The signals of the inputs at `part` of the coming step, 0 to 1: what its stages see. At 1 they are
-    /// those before what jumps there.
+    /// The signals of the inputs at `part` of the coming step, 0 to 1, for its stages. At 1 they are those before a
+    /// jump there.
     pub(crate) fn signals_at(&self, part: RealOf<H::Target>) -> SignalsOf<H> {
         let view = self.model.view();
         let knots = self.knots.as_ref();
@@ -257,7 +257,7 @@ where
         self.status
     }
 
-    /// Looks at the state with the bodies' frames brought to it.
+    /// Passes the state, with the bodies' frames brought up to date.
     pub(crate) fn with_places<A>(
         &mut self,
         look: impl FnOnce(
@@ -308,7 +308,7 @@ where
         Ok(())
     }
 
-    /// Goes on from `state`, its step counter and signals included; a failure is forgotten.
+    /// Continues from `state`, including its step counter and signals; clears a failure.
     ///
     /// # Errors
     /// [`StateError`] where it is not of this model, not finite, or an orientation is not of unit
@@ -326,7 +326,7 @@ where
         Ok(())
     }
 
-    /// Goes on from a state of this model as it is, a failure forgotten.
+    /// Continues from a state of this model without a check; clears a failure.
     pub(crate) fn resume(&mut self, state: State<H::Target>) {
         self.state = state;
         self.ledger.fresh = false;
@@ -338,7 +338,7 @@ where
     }
 }
 
-/// Whether a model has a plan, and its own.
+/// Whether a model has an elimination order that fits it.
 pub(crate) fn is_planned<M: ModelOwner>(model: &M) -> bool {
     let view = model.view();
     let groups = view.groups.iter().map(|group| [group.a.0, group.b.0]);
@@ -356,7 +356,7 @@ fn moves_ground<P: Geometry>(input: &Input<P>) -> bool {
     matches!(input.kind, InputKind::Anchor { .. })
 }
 
-/// Whether a plant in the state `own` can go on from `state`.
+/// Whether a plant in the state `own` can continue from `state`.
 fn check<M: ModelOwner>(state: &State<M>, own: &State<M>) -> Result<(), StateError> {
     let counts =
         |s: &State<M>| (s.bodies.as_ref().len(), s.turns.as_ref().len(), s.signals.as_ref().len());

@@ -1,8 +1,8 @@
-//! A plant: a model, a scheme, a step and the state they drive.
+//! A plant: a model, a scheme, a step and their state.
 //!
-//! `(model, scheme, h) => plant; step: state => state`. Nothing is allocated; all memory lies in
-//! the plant, in the shape of its model. A plant holds its model by any pointer: `&M` borrows it,
-//! from flash or from a stack; with a heap, `Arc<M>` or `Box<M>` owns it.
+//! `(model, scheme, h) => plant; step: state => state`. Nothing is allocated; all memory is part of the plant, in the
+//! shape of its model. A plant refers to its model by any pointer: `&M` borrows it, from flash or from a stack; with a
+//! heap, `Arc<M>` or `Box<M>` owns it.
 
 pub(crate) mod base;
 
@@ -23,8 +23,7 @@ use crate::step::{Stepper, Workspace};
 
 use base::{Base, PerBody, SignalsOf};
 
-/// A model stepped by a scheme at a fixed step. `H` points to the model: `&M`, or a pointer that
-/// owns it.
+/// A model stepped by a scheme at a fixed step. `H` points to the model: `&M`, or a pointer that owns it.
 pub struct Plant<H, S>
 where
     H: Deref<Target: ModelOwner + Sized>,
@@ -36,7 +35,7 @@ where
     memory: MemoryOf<H, S>,
 }
 
-/// What a scheme remembers of each body of the model that `H` points to.
+/// A scheme's memory per body of the model that `H` points to.
 pub(crate) type MemoryOf<H, S> =
     PerBody<H, <S as Scheme>::Memory<<<H as Deref>::Target as ModelOwner>::Precision>>;
 
@@ -49,8 +48,8 @@ where
     /// once to the precision. The diagonals of the inverse Jacobian are computed here.
     ///
     /// # Errors
-    /// [`PlantError::Step`] where the rounded step is not positive and finite, [`PlantError::Extent`] where
-    /// a part of the model is beyond what the precision holds.
+    /// [`PlantError::Step`] where the rounded step is not positive and finite, [`PlantError::Extent`] where a part of
+    /// the model is beyond the range of the precision.
     pub fn new(model: H, scheme: S, step_size: f64) -> Result<Self, PlantError> {
         let mut base = Base::new(model, step_size)?;
         base.check_memory(S::bears)?;
@@ -79,8 +78,8 @@ where
         Ok(Self { base, scheme, kept, memory })
     }
 
-    /// The signals of the inputs at `part` of the coming step, 0 to 1: what its stages see. At 1 they are
-    /// those before what jumps there.
+    /// The signals of the inputs at `part` of the coming step, 0 to 1, for its stages. At 1 they are those before a
+    /// jump there.
     pub fn signals_at(&self, part: RealOf<H::Target>) -> SignalsOf<H> {
         self.base.signals_at(part)
     }
@@ -92,7 +91,7 @@ where
         if !self.base.status.is_running() {
             return self.base.status;
         }
-        // Counted before it is done: nothing of the counter is then kept through it.
+        // Incremented first, so that no register holds the counter during the step.
         let step = self.base.state.step;
         let Some(next) = step.checked_add(1) else { return self.fail(Cause::Steps) };
         self.base.state.step = next;
@@ -107,11 +106,11 @@ where
         Status::Running
     }
 
-    /// One step without the guards and whatever the status, which it leaves: for those who guard
-    /// otherwise, as who steps lanes must. A step counter at its end begins anew.
+    /// One step without the guards, whatever the status, which is unchanged: for callers with guards of their own, as
+    /// lanes need. A step counter at its maximum restarts.
     ///
     /// # Errors
-    /// What the scheme could not do.
+    /// The failure of the scheme.
     #[inline(always)]
     pub fn step_unguarded(&mut self) -> Result<(), Cause> {
         let step = self.base.state.step;
@@ -121,7 +120,7 @@ where
         done
     }
 
-    /// What the scheme does in the step of this number.
+    /// The scheme's step of this number.
     #[inline(always)]
     fn attempt(&mut self, step: u64) -> Result<(), Cause> {
         let model = self.base.model.view();
@@ -162,7 +161,7 @@ where
         self.base.fail(cause)
     }
 
-    /// Looks at the state with the bodies' frames brought to it.
+    /// Passes the state, with the bodies' frames brought up to date.
     pub(crate) fn with_places<A>(
         &mut self,
         look: impl FnOnce(
@@ -174,9 +173,9 @@ where
         self.base.with_places(look)
     }
 
-    /// What the guards of a step find wrong with the present state: a body that is not finite or turns
-    /// too far in a step, or a turn count at its end. After a failure it may be the one that failed;
-    /// before [`Self::clear`] it tells whether the next step can go well.
+    /// Applies the guards of a step to the present state: a body that is not finite or rotates too far in a step, or a
+    /// revolution count that overflowed. After a failure it may be its cause; before [`Self::clear`] it shows whether
+    /// the next step can succeed.
     #[inline]
     #[must_use]
     pub fn fault(&self) -> Option<Cause> {
@@ -191,8 +190,8 @@ where
         }
     }
 
-    /// Forgets a failure and leaves the state as it failed. What is not finite, spins too fast or is
-    /// at its end fails again.
+    /// Clears a failure and leaves the state as it is. A state that is not finite, rotates too fast or has overflowed
+    /// fails again.
     pub fn clear(&mut self) {
         self.base.status = Status::Running;
     }
@@ -215,8 +214,8 @@ where
         self.set_signal(input, value, 0.0)
     }
 
-    /// [`Self::set_input`] with a value in the plant's own number: what a controller in single
-    /// precision has at hand, without a way through double precision.
+    /// [`Self::set_input`] with a value in the plant's own number, for a controller in single precision, without double
+    /// precision.
     ///
     /// # Errors
     /// [`InputError`]; nothing is changed then.
@@ -228,9 +227,8 @@ where
         self.set_signal_real(input, value, RealOf::<H::Target>::ZERO)
     }
 
-    /// Sets an input with its rate: for an anchor the displacement \[m\] and its velocity \[m/s\],
-    /// which its dampers feel; the other kinds do not use the rate. Each number is rounded once to
-    /// the precision.
+    /// Sets an input with its rate: for an anchor the displacement \[m\] and its velocity \[m/s\], on which its dampers
+    /// act; the other kinds do not use the rate. Each number is rounded once to the precision.
     ///
     /// # Errors
     /// [`InputError`]; nothing is changed then.
@@ -257,13 +255,13 @@ where
         self.base.set_signal_real(input, value, rate)
     }
 
-    /// Goes back to t = 0, as after [`Self::new`]: the model's initial state, a failure forgotten.
+    /// Returns to t = 0, as after [`Self::new`]: the model's initial state, a failure cleared.
     pub fn reset(&mut self) {
         self.base.ledger.evaluations = 0;
         self.resume(State::initial(&*self.base.model));
     }
 
-    /// Goes on from `state`, its step counter and signals included; a failure is forgotten.
+    /// Continues from `state`, including its step counter and signals; clears a failure.
     ///
     /// # Errors
     /// [`StateError`] where it is not of this model, not finite, or an orientation is not of unit
@@ -307,18 +305,18 @@ where
         self.base.ledger.evaluations
     }
 
-    /// Goes on from a state of this model as it is, a failure forgotten: [`Self::set_state`] for a
-    /// state that a plant of it was in, which needs no look.
+    /// Continues from a state of this model without a check, a failure cleared: [`Self::set_state`] for a state of a
+    /// plant of the same model.
     pub fn resume(&mut self, state: State<H::Target>) {
         self.base.resume(state);
     }
 
-    /// What the scheme remembers of the bodies, where that is of the present state.
+    /// The scheme's memory of the bodies, where it belongs to the present state.
     pub(crate) fn remembered(&self) -> Option<&MemoryOf<H, S>> {
         (S::REMEMBERS && self.base.ledger.begun).then_some(&self.memory)
     }
 
-    /// Goes on from a state with what the scheme remembers of it.
+    /// Continues from a state with the scheme's memory of it.
     pub(crate) fn resume_with(&mut self, state: State<H::Target>, memory: Option<MemoryOf<H, S>>) {
         self.resume(state);
         if let Some(memory) = memory {
@@ -327,7 +325,7 @@ where
         }
     }
 
-    /// Memory for what the scheme remembers.
+    /// Storage for the scheme's memory.
     pub(crate) fn memory(&self) -> MemoryOf<H, S> {
         self.memory.clone()
     }

@@ -87,7 +87,7 @@ fn the_rotor_of_order_four_is_of_order_four_whichever_axis_is_the_middle() {
         let change = momentum - start;
         assert!(libm::sqrt(change.dot(change)) < 1e-13, "{inertia:?}: {change:?}");
     }
-    // Against the rotor of second order, which knows nothing of the middle axis.
+    // Compared with the rotor of second order, which does not distinguish the middle axis.
     let body = Body::<f64>::from_f64(1.0, values);
     let (mut q, mut rate) = (Quaternion::IDENTITY, Vec3::new(1.3, -0.9, 2.1));
     for _ in 0..200_000 {

@@ -1,10 +1,10 @@
 //! Blanes & Moan's S6 (2002, table 2: symmetric, order four, six stages).
 //!
-//! Drifts and kicks `a₁ b₁ a₂ b₂ a₃ b₃ a₄ b₃ a₃ b₂ a₂ b₁ a₁` of a step. Fourth order, six
-//! evaluations, 4.5 times less phase error than [`crate::schemes::Pefrl`] at equal steps. Stable for
-//! `ω_max·h < 3.133`; a window of slow growth up to 3.160 follows, then stability again to 6.3,
-//! which a mechanism of many modes cannot use. Conserves what Pefrl conserves, and likewise takes
-//! the free rotor of fourth order and sweeps before and after: second order with dampers.
+//! Drifts and kicks `a₁ b₁ a₂ b₂ a₃ b₃ a₄ b₃ a₃ b₂ a₂ b₁ a₁` of a step. Fourth order, six evaluations, 4.5 times less
+//! phase error than [`crate::schemes::Pefrl`] at equal steps. Stable for `ω_max·h < 3.133`; above it is a window of
+//! slow growth up to 3.160, then stability again to 6.3, which a mechanism of many modes cannot use. Conserves the same
+//! quantities as Pefrl, and likewise uses the free rotor of fourth order and damper passes before and after: second
+//! order with dampers.
 
 use crate::compositions::BLANES_MOAN_S6;
 use crate::damping::Damping;

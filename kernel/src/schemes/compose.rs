@@ -1,8 +1,8 @@
 //! One step of a symmetric composition of drifts and kicks, for [`super::Pefrl`] and
 //! [`super::BlanesMoanS6`].
 //!
-//! `(state, composition) => state`. Sweeps lie before and after, never within: some parts of a step
-//! go backwards, where a damper would add energy.
+//! `(state, composition) => state`. Damper passes come before and after, never within: some substeps are negative,
+//! where a damper would add energy.
 
 use crate::compositions::Composition;
 use crate::forces::{At, DampersLeft};
@@ -12,7 +12,7 @@ use crate::real::Real;
 use crate::status::Cause;
 use crate::step::Stepper;
 
-/// Drifts around kicks, first and last a drift; turn counts settle at the first evaluation.
+/// Drifts around kicks, beginning and ending with a drift; revolution counts are updated at the first evaluation.
 #[inline(always)]
 pub(super) fn compose<P: Geometry, T: Terms<P>>(
     stepper: &mut Stepper<'_, '_, P, T, ()>,

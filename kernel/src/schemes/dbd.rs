@@ -1,12 +1,11 @@
 //! The step of Discrete Body Dynamics (Franco & Degani 2026, section 2.3; 2023).
 //!
-//! Predict–evaluate–correct of the velocities at frozen positions (AB1, BDF1, AM2), then
-//! semi-implicit positions, then N Newton iterations of the first-order BDF at (q, v), with
-//! `J⁻¹ = [h·D⁻¹ 0; h²·D⁻¹ −h·I]`. What deviates from the paper's print: see `docs/schemes.md`.
-//! First order; three evaluations, one more per iteration. Without velocity-dependent forces and
-//! iterations it is semi-implicit Euler: stable for `ω_max·h < 2`, the energy oscillates. Any
-//! iteration halves the limit and dissipates `h·ω²·E` per mode. Dampers are explicit forces.
-//! Keeps linear momentum to rounding, angular momentum to first order.
+//! Predict–evaluate–correct of the velocities at frozen positions (AB1, BDF1, AM2), then semi-implicit positions, then
+//! N Newton iterations of the first-order BDF at (q, v), with `J⁻¹ = [h·D⁻¹ 0; h²·D⁻¹ −h·I]`. For deviations from the
+//! printed paper see `docs/schemes.md`. First order; three evaluations, one more per iteration. Without
+//! velocity-dependent forces and iterations it is semi-implicit Euler: stable for `ω_max·h < 2`, the energy oscillates.
+//! Any iteration halves the limit and dissipates `h·ω²·E` per mode. Dampers are explicit forces. Conserves linear
+//! momentum to rounding, angular momentum to first order.
 
 use crate::body::{BodyState, Increment};
 use crate::damping::Damping;
@@ -34,7 +33,7 @@ pub struct Dbd {
     pub newton: u32,
 }
 
-/// What a step of the dbd schemes remembers of one body.
+/// The memory of the dbd schemes for one body within a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DbdMemory<P: Geometry> {
     /// The state at the step's start.
@@ -44,14 +43,14 @@ pub struct DbdMemory<P: Geometry> {
 }
 
 impl<P: Geometry> DbdMemory<P> {
-    /// Remembers the step's start; the state takes its velocity on by AB1.
+    /// Stores the step's start; advances the state's velocity by AB1.
     #[inline(always)]
     pub(super) fn predict(&mut self, state: &mut BodyState<P>, first: Increment<P::Space>) {
         *self = DbdMemory { start: *state, first };
         accelerate(state, first);
     }
 
-    /// Takes the velocities of the start on by `increment`.
+    /// Advances the velocities of the start by `increment`.
     #[inline(always)]
     pub(super) fn correct(&self, state: &mut BodyState<P>, increment: Increment<P::Space>) {
         state.velocity = self.start.velocity;
@@ -69,7 +68,7 @@ impl<P: Geometry> DbdMemory<P> {
         }
     }
 
-    /// The pose of the start, moved on by the present velocities.
+    /// Advances the pose of the start by the present velocities.
     #[inline(always)]
     pub(super) fn reposition(&self, state: &mut BodyState<P>, h: P::Real) {
         state.position = self.start.position;

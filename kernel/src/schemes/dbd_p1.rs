@@ -1,11 +1,10 @@
-//! The step of Discrete Body Dynamics read otherwise: positions are predicted, too (P1).
+//! The step of Discrete Body Dynamics in another reading: positions are predicted, too (P1).
 //!
-//! As [`crate::schemes::Dbd`] (Franco & Degani 2026, section 2.3), but the second evaluation of the
-//! AM2 mean is at the predicted pose, `a(q_n ∘ h·v_p, v_p)`, and there is no BDF1 velocity in
-//! between. First order; two evaluations, one more per Newton iteration; explicit dampers. It
-//! dissipates: a mode loses `½·h·ω²·E`, with iterations `h·ω²·E`. Stable for `ω_max·h < √2`, and
-//! less with two iterations or more. Keeps linear momentum to rounding.
-//! For the record: the energies that the paper reports exclude it.
+//! As [`crate::schemes::Dbd`] (Franco & Degani 2026, section 2.3), but the second evaluation of the AM2 mean is at the
+//! predicted pose, `a(q_n ∘ h·v_p, v_p)`, and there is no BDF1 velocity in between. First order; two evaluations, one
+//! more per Newton iteration; explicit dampers. It dissipates: a mode loses `½·h·ω²·E`, with iterations `h·ω²·E`.
+//! Stable for `ω_max·h < √2`, and less with two iterations or more. Conserves linear momentum to rounding. For
+//! reference only: the energies reported in the paper exclude it.
 
 use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
@@ -18,7 +17,7 @@ use crate::schemes::{DbdMemory, Scheme};
 use crate::status::Cause;
 use crate::step::Stepper;
 
-/// Limits by number of iterations, rounded down: where `s ← 1 − z²·s` from `1 − z²/2` leaves (0, 1].
+/// Limits by number of iterations, rounded down: the bound at which `s ← 1 − z²·s` from `1 − z²/2` leaves (0, 1].
 const LIMITS: [f64; 9] = [1.414, 1.414, 1.242, 1.242, 1.178, 1.178, 1.143, 1.143, 1.12];
 
 /// Predict–evaluate–correct of positions and velocities, then Newton iterations, 0 by default.
@@ -42,7 +41,7 @@ impl Scheme for DbdP1 {
     }
 
     fn stability_limit(&self) -> f64 {
-        // With ever more iterations it falls towards 1.
+        // With more iterations it decreases towards 1.
         LIMITS.get(self.newton as usize).copied().unwrap_or(1.0)
     }
 

@@ -1,11 +1,10 @@
-//! The step of Discrete Body Dynamics read otherwise: positions follow every velocity (P2).
+//! The step of Discrete Body Dynamics in another reading: positions follow every velocity (P2).
 //!
-//! As [`crate::schemes::DbdP1`] (Franco & Degani 2026, section 2.3), and the AM2 mean takes its second
-//! evaluation at the BDF1-corrected state: `v_c = v_n + h·a(q_n ∘ h·v_p, v_p)`, then
-//! `a(q_n ∘ h·v_c, v_c)`. First order; three evaluations, one more per Newton iteration; explicit
-//! dampers. It dissipates as P1 does, `½·h·ω²·E` per mode, with iterations `h·ω²·E`. Stable for
-//! `ω_max·h < 1`. Keeps linear momentum to rounding.
-//! For the record: the energies that the paper reports exclude it.
+//! As [`crate::schemes::DbdP1`] (Franco & Degani 2026, section 2.3), and the second evaluation of the AM2 mean is at
+//! the BDF1-corrected state: `v_c = v_n + h·a(q_n ∘ h·v_p, v_p)`, then `a(q_n ∘ h·v_c, v_c)`. First order; three
+//! evaluations, one more per Newton iteration; explicit dampers. It dissipates as P1 does, `½·h·ω²·E` per mode, with
+//! iterations `h·ω²·E`. Stable for `ω_max·h < 1`. Conserves linear momentum to rounding. For reference only: the
+//! energies reported in the paper exclude it.
 
 use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};

@@ -1,10 +1,10 @@
-//! Explicit dampers in a scheme of kicks and drifts: what sweeps are measured against.
+//! Explicit dampers in a scheme of kicks and drifts: the baseline for damper passes.
 //!
-//! `Explicit(Leapfrog)` takes the dampers' forces at the velocities of each evaluation, as the
-//! literature's plain steps do, instead of the sweeps of [`crate::damping`]. First order with
-//! dampers; they add to the wrench, so that nothing can be kept from one step to the next, and a
-//! damper of coefficient c on an effective mass μ alone limits the step to about 2·μ/c. Without
-//! dampers the bits are those of the scheme itself. For comparison; not advised.
+//! `Explicit(Leapfrog)` adds the dampers' forces at the velocities of each evaluation, as plain steps in the literature
+//! do, instead of the damper passes of [`crate::damping`]. First order with dampers; their forces are part of the
+//! wrench, so no evaluation can be reused in the next step, and a damper of coefficient c on an effective mass μ alone
+//! limits the step to about 2·μ/c. Without dampers the bits are those of the scheme itself. For comparison; not
+//! recommended.
 
 use crate::damping::Damping;
 use crate::forces::{Dampers, ExplicitDampers};
@@ -15,13 +15,13 @@ use crate::schemes::Scheme;
 use crate::status::Cause;
 use crate::step::Stepper;
 
-/// A scheme whose dampers can be sweeps or, within its kicks, explicit forces. Schemes with
-/// negative sub-steps are left out: there a damper would add energy.
+/// A scheme whose dampers can be damper passes or, within its kicks, explicit forces. Schemes with negative substeps
+/// are excluded: there a damper would add energy.
 pub trait Kicked: Scheme {
     /// Evaluations per step with explicit dampers.
     const EXPLICIT_EVALUATIONS: u32;
 
-    /// A step, with `EXPLICIT` dampers or with sweeps.
+    /// A step, with explicit dampers or damper passes, depending on `D`.
     ///
     /// # Errors
     /// As [`Scheme::step`].
@@ -30,7 +30,7 @@ pub trait Kicked: Scheme {
     ) -> Result<(), Cause>;
 }
 
-/// A scheme with explicit dampers in place of its sweeps.
+/// A scheme with explicit dampers in place of its damper passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Explicit<S>(pub S);

@@ -1,19 +1,19 @@
 //! Generalised-α extrapolated: third order at any stiffness, three linear solves per step.
 //!
-//! Richardson (1911): a step h of [`GeneralizedAlpha`] and two of h/2 start from the same state; their errors are as
-//! 4 : 1. To y₂, the state after the two, a third of their difference is added, filtered:
+//! Richardson (1911): a step h of [`GeneralizedAlpha`] and two of h/2 start from the same state; their errors have the
+//! ratio 4 : 1. A third of their difference, filtered, is added to y₂, the state after the two:
 //!
 //! `e = ⅓·W²·(y₂ − y₁)`, `W = (μ·M + γ·h·C + β·h²·K)⁻¹·μ·M`, `y⁺ = y₂ + e + ³⁄₁₀·(e − e₋)`
 //!
-//! - W leaves slow motion as it is and takes nothing of what is fast: the errors of a vibration that the step does not
-//!   resolve are not as 4 : 1, and without W one of ω·h = 4.2 would grow by 1.2 per step. With W² and ρ∞ = ½ every
-//!   vibration decays, whatever its frequency and damping; W once would let one of ω·h = 2 grow by 1.002.
-//! - `e₋` is that of the step before. The difference is of fourth order and takes more from slow motion than
-//!   extrapolation gives to it.
+//! - W is the identity for slow motion and removes fast motion: the errors of a vibration that the step does not
+//!   resolve do not have the ratio 4 : 1, and without W one of ω·h = 4.2 would grow by 1.2 per step. With W² and ρ∞ = ½
+//!   every vibration decays, at any frequency and damping; with W one of ω·h = 2 would grow by 1.002.
+//! - `e₋` is that of the last step. The difference is of fourth order and removes more from slow motion than
+//!   extrapolation adds to it.
 //!
-//! The accelerations of the steps h and h/2 are remembered apart, for they are of other times. The step h comes last,
-//! so that its factored matrix serves W. Where a step does not resolve the motion, this scheme may gain energy,
-//! while [`GeneralizedAlpha`] loses it.
+//! The accelerations of the steps h and h/2 are stored separately, because they belong to different times. The step h
+//! comes last, so that its factored matrix can be used for W. Where a step does not resolve the motion, this scheme may
+//! gain energy, while [`GeneralizedAlpha`] loses it.
 
 use core::mem::swap;
 
@@ -41,20 +41,20 @@ use crate::words::{WordSource, WordVisitor, Words as _};
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct GeneralizedAlpha3;
 
-/// What is extrapolated. Vibration decays with ρ∞ from 0.47 to 0.62 alone.
+/// The extrapolated scheme. Vibration decays only for ρ∞ from 0.47 to 0.62.
 const STEPS: GeneralizedAlpha = GeneralizedAlpha::DEFAULT;
-/// What is taken of the present difference, and what is given back of that of the step before: together a third.
+/// The factors of the present difference and of the correction by the last one: together a third.
 const NOW: Constant = Constant::new(1.3 / 3.0);
 const BEFORE: Constant = Constant::new(0.3 / 3.0);
 
-/// What a step of [`GeneralizedAlpha3`] remembers of one body: accelerations for the next, poses within the step.
+/// The memory of [`GeneralizedAlpha3`] for one body: accelerations for the next step, poses within the step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GeneralizedAlpha3Memory<P: Geometry> {
-    /// Of the half steps; of the step h while it is taken.
+    /// The accelerations of the half steps; during the step h those of that step.
     present: GeneralizedAlphaMemory<P>,
-    /// Of the others.
+    /// The other accelerations.
     other: GeneralizedAlphaMemory<P>,
-    /// The state at the step's start, then that after two halves.
+    /// The state at the step's start, then that after two half steps.
     kept: BodyState<P>,
     /// \[m, rad\] the last filtered difference of poses, then that of velocities \[m/s, rad/s\].
     poses: Increment<P::Space>,
@@ -71,7 +71,7 @@ impl<P: Geometry> Remembers<P> for GeneralizedAlpha3Memory<P> {
 impl Scheme for GeneralizedAlpha3 {
     const NAME: &'static str = "generalized-alpha-3";
     const ORDER: u32 = 3;
-    // Of third order where a step resolves how fast dampers stop what they damp.
+    // Third order where a step resolves the decay by dampers.
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Implicit;
     const REMEMBERS: bool = true;
@@ -122,7 +122,8 @@ impl Scheme for GeneralizedAlpha3 {
         let begins = !stepper.ledger.begun || jumps;
         let (h, half, one) = (stepper.h, P::Real::HALF, P::Real::ONE);
         let states = stepper.workspace.bodies.iter();
-        // A first step is off by more than others: what it gives ahead the second takes back, so that the sum is right.
+        // The first step has a larger error: the second subtracts what the first adds in advance, so that the sum is
+        // right.
         for (memory, state) in stepper.memory.iter_mut().zip(states) {
             if !stepper.workspace.ledger.begun {
                 *memory = GeneralizedAlpha3Memory::default();
@@ -136,7 +137,7 @@ impl Scheme for GeneralizedAlpha3 {
         ];
         for part in parts {
             if !part.half {
-                // From the start once more, with what is remembered of whole steps.
+                // From the start again, with the memory of whole steps.
                 stepper.sample_inputs(P::Real::ZERO);
                 exchange(stepper);
             }
@@ -148,7 +149,7 @@ impl Scheme for GeneralizedAlpha3 {
     }
 }
 
-/// Takes from all bodies the state that is kept and the other memory, and leaves theirs.
+/// Exchanges every body's state and memory with the stored state and the other memory.
 #[inline(always)]
 fn exchange<P: Geometry, T: Terms<P>>(
     stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlpha3Memory<P>>,
@@ -159,7 +160,7 @@ fn exchange<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// Takes the state after two halves, which is kept, with what it lacks.
+/// Restores the stored state after two half steps and adds the correction.
 #[inline(always)]
 fn extrapolate<P: Geometry, T: Terms<P>>(
     stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlpha3Memory<P>>,
@@ -182,7 +183,7 @@ fn extrapolate<P: Geometry, T: Terms<P>>(
     });
 }
 
-/// `e + ³⁄₁₀·(e − e₋)` of a filtered difference 3·e, which is remembered.
+/// `e + ³⁄₁₀·(e − e₋)` of a filtered difference 3·e, which is stored.
 #[inline(always)]
 fn ahead<S: Space>(change: Increment<S>, last: &mut Increment<S>) -> Increment<S> {
     let [now, before] = [NOW, BEFORE].map(S::Real::constant);
@@ -194,7 +195,7 @@ fn ahead<S: Space>(change: Increment<S>, last: &mut Increment<S>) -> Increment<S
     }
 }
 
-/// W² times a difference of what both ways have led to, in place of the wrenches, its turns along the world's axes.
+/// W² times the difference of both results, in place of the wrenches, its rotations in world axes.
 #[inline(always)]
 fn filter<P: Geometry, T: Terms<P>>(
     stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlpha3Memory<P>>,
@@ -220,7 +221,7 @@ fn filter<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// How a body's pose differs from another, the turn in body axes.
+/// The difference of a body's pose to another, the rotation in body axes.
 #[inline(always)]
 fn pose_change<P: Geometry>(from: &BodyState<P>, to: &BodyState<P>) -> Increment<P::Space> {
     let centre = |state: &BodyState<P>| {
@@ -230,7 +231,7 @@ fn pose_change<P: Geometry>(from: &BodyState<P>, to: &BodyState<P>) -> Increment
     let turn = P::Orientation::relative(Some(&from.orientation), Some(&to.orientation));
     let mut angular = P::Moment::ZERO;
     for axis in P::Moment::axes() {
-        // Of a small turn twice the vector part is the rotation vector, to the third power of it.
+        // For a small rotation twice the vector part is the rotation vector, up to its third power.
         angular = angular + axis * (P::Real::TWO * turn.about(axis).1);
     }
     Increment { linear: P::displacement(&centre(from), &centre(to)), angular }

@@ -1,32 +1,32 @@
-//! Generalised-α: the joints' stiffness and damping taken into the step by one linear solve.
+//! Generalised-α: the joints' stiffness and damping are included in the step by one linear solve.
 //!
-//! Chung & Hulbert (1993), on Lie groups Brüls, Cardona & Arnold (2012), with the residual at the moved
-//! pose and one Newton step from there, which is all that second order takes. Per body u the velocities,
-//! a the algorithmic and d the true accelerations, ρ∞ what is left per step of a vibration that the
-//! step does not resolve, `α_m = (2ρ−1)/(ρ+1)`, `α_f = ρ/(ρ+1)`, `γ = ½ − α_m + α_f`, `β = ¼·(γ + ½)²`:
+//! Chung & Hulbert (1993), on Lie groups Brüls, Cardona & Arnold (2012), with the residual at the advanced pose and one
+//! Newton step from there, which suffices for second order. Per body u are the velocities, a the algorithmic and d the
+//! true accelerations, ρ∞ is the fraction of a vibration not resolved by the step that remains per step,
+//! `α_m = (2ρ−1)/(ρ+1)`, `α_f = ρ/(ρ+1)`, `γ = ½ − α_m + α_f`, `β = ¼·(γ + ½)²`:
 //!
 //! 1. `û = u + h·(1−γ)·a`, `q̂ = q ∘ exp(h·u + h²·(½−β)·a)`
 //! 2. `(μ·M + γ·h·C + β·h²·K)·a⁺ = F(q̂, û) + M·s`, `μ = (1−α_m)/(1−α_f)`, `s = (α_f·d − α_m·a)/(1−α_f)`
 //! 3. `u⁺ = û + γ·h·a⁺`, `q⁺ = q̂ ∘ exp(β·h²·a⁺)`, `d⁺ = μ·a⁺ − s`
 //!
-//! C and K are the material tangents of dampers and springs ([`crate::solve`]), so that the matrix is positive
-//! definite for every step; the gyroscopic torque, which they leave out, is that of `û + γ·h·a`: of
-//! û alone a tumbling body would be followed to first order only. Second order in the slow motion,
-//! stable at any stiffness and damping as long as the bodies turn little in a step; it damps what
-//! vibrates fast, by design, and keeps linear momentum of free bodies alone to rounding.
+//! C and K are the material tangents of dampers and springs ([`crate::solve`]), so that the matrix is positive definite
+//! for every step; the gyroscopic torque, which they leave out, is that of `û + γ·h·a`: with û alone a tumbling body
+//! would be of first order only. Second order in the slow motion, stable at any stiffness and damping as long as the
+//! bodies rotate little in a step; it damps fast vibration, by design, and conserves only the linear momentum of free
+//! bodies to rounding.
 //!
-//! With dampers the remembered a predicts the whole step: forces are taken at `û + γ·h·a` and at the pose with
-//! `β·h²·a`, and the matrix gives `a⁺ − a`. Of û alone whatever the matrix has of C that is not that of the pose,
-//! a lumped joint's, would be an error of first order.
+//! With dampers the stored a predicts the whole step: forces are evaluated at `û + γ·h·a` and at the pose with
+//! `β·h²·a`, and the matrix gives `a⁺ − a`. With û alone any difference of the matrix to the C of the pose, as with a
+//! lumped joint's, would be an error of first order.
 //!
-//! A first step knows no accelerations. Those of `M⁻¹·F` would be wrong by far: joints that are all but rigid hold
-//! the bodies only once they have moved, and what they were thrown in a step shakes them for many more. So forces
-//! are taken at `q ∘ exp(τ·h·u)`, `½·τ² = β/μ`, where the same matrix closes the joints, and
-//! `(M + γ/μ·h·C + β/μ·h²·K)·a = F` is the acceleration of the whole first step, `a = d`.
+//! The first step has no accelerations. Those of `M⁻¹·F` would be far off: nearly rigid joints hold the bodies only
+//! once they have moved, and the motion until then excites vibrations for many steps. So forces are evaluated at
+//! `q ∘ exp(τ·h·u)`, `½·τ² = β/μ`, where the same matrix closes the joints, and `(M + γ/μ·h·C + β/μ·h²·K)·a = F` is the
+//! acceleration of the whole first step, `a = d`.
 //!
-//! What is pushed from outside, loads and inputs, may jump. Accelerations are therefore remembered
-//! without it, and it is added to them as it is where a step begins. Ground that jumps by a table throws what it holds:
-//! the step begins as a first one.
+//! External forces, of loads and inputs, may jump. Accelerations are therefore stored without them, and their value at
+//! the start of a step is added. A jump of the ground by a table accelerates the bodies joined to it: such a step is
+//! treated as a first one.
 
 use crate::body::{Body, BodyState, Increment};
 use crate::damping::Damping;
@@ -43,7 +43,7 @@ use crate::status::Cause;
 use crate::step::Stepper;
 use crate::words::{Word, WordSource, WordVisitor, Words as _};
 
-/// One linear solve per step: for joints that are all but rigid.
+/// One linear solve per step: for nearly rigid joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeneralizedAlpha {
     rho: f64,
@@ -55,44 +55,44 @@ pub struct GeneralizedAlpha {
     rest_of_beta: Constant,
     /// 1 − γ.
     rest_of_gamma: Constant,
-    /// `α_f/(1−α_f)`, of d in s.
+    /// `α_f/(1−α_f)`, factor of d in s.
     of_true: Constant,
-    /// `α_m/(1−α_f)`, of −a in s.
+    /// `α_m/(1−α_f)`, factor of −a in s.
     of_algorithmic: Constant,
-    /// τ, at which part of a first step forces are taken.
+    /// τ, the fraction of a first step at which forces are evaluated.
     first: Constant,
     /// 1 − τ.
     rest_of_first: Constant,
 }
 
-/// Why there is no such scheme: ρ∞ is not from 0 to [`GeneralizedAlpha::MOST_RHO`].
+/// An invalid ρ∞: not from 0 to [`GeneralizedAlpha::MOST_RHO`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct RhoError(
-    /// \[1\] what was asked for.
+    /// \[1\] the given value.
     pub f64,
 );
 
 impl core::fmt::Display for RhoError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "rho is from 0 to {}, not {}", GeneralizedAlpha::MOST_RHO, self.0)
+        write!(f, "rho must be from 0 to {}, not {}", GeneralizedAlpha::MOST_RHO, self.0)
     }
 }
 
 impl core::error::Error for RhoError {}
 
 impl GeneralizedAlpha {
-    /// ρ∞ where nothing else is asked for.
+    /// The default ρ∞.
     pub const RHO: f64 = 0.5;
     /// The scheme with [`Self::RHO`].
     pub const DEFAULT: Self = match Self::new(Self::RHO) {
         Ok(scheme) => scheme,
         Err(_) => unreachable!(),
     };
-    /// The largest ρ∞: beyond it what one Newton step leaves is damped too little.
+    /// The largest ρ∞: above it the error of a single Newton step is damped too little.
     pub const MOST_RHO: f64 = 0.8;
 
-    /// The scheme that leaves the part `rho`, ρ∞, of a vibration in each step that does not resolve it.
+    /// The scheme with the given `rho`, ρ∞, the fraction of an unresolved vibration that remains per step.
     ///
     /// # Errors
     /// [`RhoError`] where it is not from 0 to [`Self::MOST_RHO`].
@@ -132,8 +132,7 @@ impl Default for GeneralizedAlpha {
     }
 }
 
-/// What a step of [`GeneralizedAlpha`] remembers of one body for the next: accelerations, without those of loads
-/// and inputs.
+/// The memory of [`GeneralizedAlpha`] for one body: accelerations for the next step, without those of loads and inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GeneralizedAlphaMemory<P: Geometry> {
     /// \[m/s², rad/s²\] a.
@@ -142,9 +141,9 @@ pub struct GeneralizedAlphaMemory<P: Geometry> {
     real: Increment<P::Space>,
 }
 
-/// A scheme's memory per body that holds that of [`GeneralizedAlpha`].
+/// A scheme's memory per body that contains that of [`GeneralizedAlpha`].
 pub trait Remembers<P: Geometry> {
-    /// What the step that is taken remembers.
+    /// The memory of the current step.
     fn accelerations(&mut self) -> &mut GeneralizedAlphaMemory<P>;
 }
 
@@ -155,18 +154,18 @@ impl<P: Geometry> Remembers<P> for GeneralizedAlphaMemory<P> {
     }
 }
 
-/// A step of [`GeneralizedAlpha`] as part of one of the plant's.
+/// A step of [`GeneralizedAlpha`] as part of a plant's step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part<R> {
-    /// \[s\] how long it is.
+    /// \[s\] its duration.
     pub(super) h: R,
-    /// \[1\] what has passed of the plant's step at its end.
+    /// \[1\] the elapsed fraction of the plant's step at its end.
     pub(super) end: R,
     /// Whether it is half of the plant's step.
     pub(super) half: bool,
-    /// Whether what is remembered is of no use.
+    /// Whether the stored accelerations are invalid.
     pub(super) begins: bool,
-    /// Of its evaluation.
+    /// The position of its evaluation.
     pub(super) at: At,
 }
 
@@ -176,10 +175,10 @@ impl Scheme for GeneralizedAlpha {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Implicit;
     const REMEMBERS: bool = true;
-    // One Newton step does not follow what turns farther.
+    // One Newton step is not accurate for larger rotations.
     const MOST_TURN: Constant = Constant::new(0.5);
-    // Rounding in the matrix grows with its condition, the square of this: in single precision free
-    // motion is followed to 1e-5 m up to here, and dragged beyond. The bound exceeds ω by up to √2.
+    // Rounding errors in the matrix grow with its condition, the square of this: in single precision free motion is
+    // accurate to 1e-5 m up to this limit, and is slowed down beyond. The bound exceeds ω by up to √2.
     const MOST_VIBRATION: Option<Constant> = Some(Constant { double: 1e7, single: 700.0 });
     type Memory<P: Geometry> = GeneralizedAlphaMemory<P>;
     type Keeps = Matrix;
@@ -222,7 +221,7 @@ impl Scheme for GeneralizedAlpha {
         &self,
         stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
     ) -> Result<(), Cause> {
-        // What is remembered is of no use where the ground jumps.
+        // The stored accelerations are invalid where the ground jumps.
         let begins = !stepper.ledger.begun || stepper.ground_jumps();
         let (h, end) = (stepper.h, P::Real::ONE);
         self.advance(stepper, Part { h, end, half: false, begins, at: At::Boundary })?;
@@ -231,7 +230,7 @@ impl Scheme for GeneralizedAlpha {
     }
 }
 
-/// √x by Newton's iteration, which a constant can have.
+/// √x by Newton's iteration, usable in a `const`.
 const fn root(x: f64) -> f64 {
     let (mut y, mut i) = (1.0, 0);
     while i < 8 {
@@ -242,7 +241,7 @@ const fn root(x: f64) -> f64 {
 }
 
 impl GeneralizedAlpha {
-    /// One step of it.
+    /// One step of the given part.
     #[inline(always)]
     pub(super) fn advance<P: Geometry, T: Terms<P>, S: Remembers<P>>(
         &self,
@@ -261,7 +260,7 @@ impl GeneralizedAlpha {
             stepper.each_pushed(P::Real::ONE);
         }
         let constant = P::Real::constant;
-        // With dampers the remembered a predicts the whole step, without them the part of it that is known.
+        // With dampers the stored a predicts the whole step, without them the known part of it.
         let predicted = stepper.has_dampers();
         let (near, far) = if predicted {
             (h * P::Real::HALF, h)
@@ -296,7 +295,7 @@ impl GeneralizedAlpha {
         Ok(())
     }
 
-    /// A step from the solution on.
+    /// The end of a step from the solution.
     #[inline(always)]
     fn end<P: Geometry, T: Terms<P>, S: Remembers<P>>(
         &self,
@@ -324,7 +323,7 @@ impl GeneralizedAlpha {
         });
     }
 
-    /// A first step from the solution on: the rest of the way, at one acceleration.
+    /// The end of a first step from the solution: the remaining motion, at one acceleration.
     fn end_first<P: Geometry, T: Terms<P>, S: Remembers<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, S>,
@@ -390,7 +389,7 @@ impl GeneralizedAlpha {
 }
 
 impl<P: Geometry, T: Terms<P>, S: Remembers<P>> Stepper<'_, '_, P, T, S> {
-    /// Visits every body with its solution, torques of which are in world axes.
+    /// Visits every body with its solution, whose torques are in world axes.
     #[inline(always)]
     pub(super) fn correct(
         &mut self,
@@ -405,7 +404,7 @@ impl<P: Geometry, T: Terms<P>, S: Remembers<P>> Stepper<'_, '_, P, T, S> {
         }
     }
 
-    /// Adds to the remembered accelerations `sign` times those of what is pushed from outside.
+    /// Adds to the stored accelerations `sign` times those of the external forces.
     #[inline(always)]
     fn each_pushed(&mut self, sign: P::Real) {
         let Stepper { workspace, memory } = self;

@@ -1,10 +1,10 @@
 //! Dampers joint by joint in a scheme of kicks and drifts.
 //!
-//! `JointWise(Leapfrog)` takes a joint's three to nine dampers as at most six levers, which do not act
-//! on one another (see [`crate::damping`]): fewer, and those of a joint to the ground constant. They
-//! stand as the dampers do at the start, seen from the joint's second body: the law of damping differs
-//! from that of the single dampers by what the joint's deflection turns them. Order, limits and what is
-//! kept are those of sweeps. Without dampers the bits are those of the scheme itself.
+//! `JointWise(Leapfrog)` replaces a joint's three to nine dampers by at most six damping modes, which are mutually
+//! independent (see [`crate::damping`]): fewer, and constant for a joint to the ground. They are constant in the axes
+//! of the joint's second body, as at the start: the damping law differs from that of the single dampers by the rotation
+//! of their directions with the joint's deflection. Order, limits and conserved quantities are those of damper passes.
+//! Without dampers the bits are those of the scheme itself.
 
 use crate::damping::Damping;
 use crate::forces::DampersOfJoints;
@@ -15,7 +15,7 @@ use crate::schemes::{Kicked, Scheme};
 use crate::status::Cause;
 use crate::step::Stepper;
 
-/// A scheme whose dampers act joint by joint in place of its sweeps.
+/// A scheme whose dampers act joint by joint in place of its damper passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct JointWise<S>(pub S);

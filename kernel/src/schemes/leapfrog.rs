@@ -1,12 +1,11 @@
 //! Leapfrog: kick–drift–kick (velocity Verlet; Verlet 1967, Swope et al. 1982).
 //!
-//! Second order, symplectic and reversible without dampers: the energy oscillates and does not
-//! drift, a tumbling body's included, whose free rotor is a splitting of second order. Linear and,
-//! with quaternions, angular momentum are kept to rounding; with damped bushings and points on
-//! lines, whose law does not keep it, the linear one alone. One force evaluation per step: the
-//! last of a step is the first of the next, unless a load begins or ends or an input jumps.
-//! Stable for `ω_max·h < 2`. Dampers are pairwise sweeps of half a step, each told of the half kick
-//! before it (see [`crate::damping`]); they cost no stability and keep second order.
+//! Second order, symplectic and reversible without dampers: the energy oscillates and does not drift, also for a
+//! tumbling body, whose free rotor is a splitting of second order. Linear and, with quaternions, angular momentum are
+//! conserved to rounding; with damped bushings and points on lines, whose law does not conserve it, only the linear
+//! one. One force evaluation per step: the last of a step is the first of the next, unless a load begins or ends or an
+//! input jumps. Stable for `ω_max·h < 2`. Dampers are pairwise damper passes of half a step, each including the
+//! preceding half kick (see [`crate::damping`]); they do not reduce stability and keep second order.
 
 use crate::damping::Damping;
 use crate::forces::{At, Dampers, DampersLeft};
@@ -56,7 +55,7 @@ impl Kicked for Leapfrog {
     fn step_with<P: Geometry, T: Terms<P>, D: Dampers>(
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
-        // One evaluation in the code, whichever it is: all of a step is then one function.
+        // One call of the evaluation for both cases, so that it is inlined and a step is one function.
         let mut known = !D::ACT && stepper.refresh();
         let h = stepper.h;
         loop {

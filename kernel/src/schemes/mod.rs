@@ -38,7 +38,7 @@ use crate::status::{Cause, MOST_TURN};
 use crate::step::Stepper;
 use crate::words::{WordSource, WordVisitor};
 
-/// A one-step scheme of fixed cost. Others may write further ones with what [`Stepper`] offers.
+/// A one-step scheme of fixed cost. User-defined ones can be written with the methods of [`Stepper`].
 pub trait Scheme: Copy {
     /// The name users give, also in summaries and golden tables.
     const NAME: &'static str;
@@ -48,22 +48,21 @@ pub trait Scheme: Copy {
     const ORDER_DAMPED: u32;
     /// How dampers act.
     const DAMPING: Damping;
-    /// Whether what it remembers of a body goes on from step to step: it is part of a snapshot then.
+    /// Whether its memory per body continues from step to step: it is then part of a snapshot.
     const REMEMBERS: bool = false;
-    /// Whether memories that lose energy may be settled at its evaluations: not where it steps back in time.
+    /// Whether memories that lose energy may be updated at its evaluations: not where it steps back in time.
     const SETTLES: bool = true;
-    /// Whether it brings memories of laws on by its steps: it evaluates once per step, at its end.
+    /// Whether its steps advance memories of laws: it evaluates once per step, at its end.
     const ADVANCES: bool = false;
-    /// \[rad\] what a body may turn in a step.
+    /// \[rad\] the largest rotation of a body in a step.
     const MOST_TURN: Constant = Constant::new(MOST_TURN);
-    /// \[rad\] the largest `ω·h` of what a model's mounts can vibrate with that its matrix bears in double
-    /// and in single precision.
+    /// \[rad\] the largest `ω·h` of a model's natural frequencies that its matrix allows in double and in single
+    /// precision.
     const MOST_VIBRATION: Option<Constant> = None;
     /// Memory per body that the scheme needs within a step, or from one to the next.
     type Memory<P: Geometry>: Copy + Default + Send;
-    /// What its plants keep beside it: [`Nothing`](crate::keep::Nothing),
-    /// [`Levers`](crate::keep::Levers) for damping joint by joint, or a
-    /// [`Matrix`](crate::keep::Matrix).
+    /// Its storage in a plant: [`Nothing`](crate::keep::Nothing), [`Levers`](crate::keep::Levers) for damping joint by
+    /// joint, or a [`Matrix`](crate::keep::Matrix).
     type Keeps: Keep;
 
     /// Force evaluations per step, when nothing changes between steps.
@@ -72,7 +71,7 @@ pub trait Scheme: Copy {
     /// Largest stable `ω_max·h` of an undamped oscillator; all smaller ones are stable, too.
     fn stability_limit(&self) -> f64;
 
-    /// Whether it gives to memories of laws what they need.
+    /// Whether it fulfils the requirement of a law's memory.
     #[must_use]
     fn bears(need: Need) -> bool {
         match need {
@@ -82,7 +81,7 @@ pub trait Scheme: Copy {
         }
     }
 
-    /// Hands its parameters to the visitor, as far as [`Self::evaluations`] does not tell them.
+    /// Passes its parameters to the visitor, except those determined by [`Self::evaluations`].
     fn visit_parameters(&self, _visitor: &mut impl WordVisitor) {}
 
     /// The weights of mass, damping and stiffness in its matrix, for a scheme that has one.
@@ -90,17 +89,18 @@ pub trait Scheme: Copy {
         Pencil::default()
     }
 
-    /// Hands what is remembered of a body to the visitor, word by word.
+    /// Passes the memory of a body to the visitor, word by word.
     fn visit_memory<P: Geometry>(_memory: &Self::Memory<P>, _visitor: &mut impl WordVisitor) {}
 
-    /// Takes it from the source in the same order.
+    /// Reads it from the source in the same order.
     fn fill_memory<P: Geometry>(_memory: &mut Self::Memory<P>, _source: &mut impl WordSource) {}
 
-    /// One step of the size [`Workspace::step_size`](crate::step::Workspace::step_size). Ends with the state at the next step's start; the
-    /// caller advances the counter and looks for what is not finite or spins too fast.
+    /// One step of the size [`Workspace::step_size`](crate::step::Workspace::step_size). Ends with the state at the
+    /// next step's start; the caller increments the counter and checks for values that are not finite and for too fast
+    /// rotation.
     ///
     /// # Errors
-    /// The torsion spring whose twist is undefined; the state is then that of the stage.
+    /// The torsion spring whose torsion angle is undefined; the state is then that of the stage.
     fn step<P: Geometry, T: Terms<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,

@@ -1,12 +1,11 @@
 //! PEFRL: position-extended Forest–Ruth-like (Omelyan, Mryglod & Folk 2002, eq. 20–22).
 //!
-//! Drifts and kicks `ξ, ½ − λ, χ, λ, 1 − 2(χ + ξ), λ, χ, ½ − λ, ξ` of a step. Fourth order, four
-//! evaluations, stable for `ω_max·h < 2.989`. Symplectic and reversible without dampers: the energy
-//! oscillates by O(h⁴) and does not drift; linear and, with quaternions, angular momentum are kept
-//! to rounding; with damped bushings and points on lines, whose law does not keep it, the linear
-//! one alone. The free rotor is of fourth order; planar motion takes one exact turn.
-//! Dampers are pairwise sweeps of half a step before and after (see [`crate::damping`]), never
-//! within a step, some of whose parts go backwards: second order then.
+//! Drifts and kicks `ξ, ½ − λ, χ, λ, 1 − 2(χ + ξ), λ, χ, ½ − λ, ξ` of a step. Fourth order, four evaluations, stable
+//! for `ω_max·h < 2.989`. Symplectic and reversible without dampers: the energy oscillates by O(h⁴) and does not drift;
+//! linear and, with quaternions, angular momentum are conserved to rounding; with damped bushings and points on lines,
+//! whose law does not conserve it, only the linear one. The free rotor is of fourth order; planar motion needs one
+//! exact rotation. Dampers are pairwise damper passes of half a step before and after (see [`crate::damping`]), never
+//! within a step, some of whose substeps are negative: second order then.
 
 use crate::compositions::PEFRL;
 use crate::damping::Damping;

@@ -1,11 +1,10 @@
 //! The classical Runge–Kutta scheme (Kutta 1901), orientations on their group (Munthe-Kaas 1999).
 //!
-//! Positions and velocities as in the textbook; an orientation is `q_n ∘ exp(u)`, and u is
-//! integrated by the same weights with `u̇ = ω + ½·u×ω + ¹⁄₁₂·u×(u×ω)`, whose next term is of fifth
-//! order. Fourth order with and without dampers, which are explicit forces; four evaluations.
-//! Stable for `ω_max·h < 2.828`; it dissipates `(ω·h)⁶/72` of a mode's energy per step and limits
-//! the step by a damper to about 2.78·m/c. Keeps linear momentum to rounding, angular momentum
-//! and energy to fourth order only: they drift.
+//! Positions and velocities as in the textbook; an orientation is `q_n ∘ exp(u)`, and u is integrated by the same
+//! weights with `u̇ = ω + ½·u×ω + ¹⁄₁₂·u×(u×ω)`, whose next term is of fifth order. Fourth order with and without
+//! dampers, which are explicit forces; four evaluations. Stable for `ω_max·h < 2.828`; it dissipates `(ω·h)⁶/72` of a
+//! mode's energy per step, and a damper limits the step to about 2.78·m/c. Conserves linear momentum to rounding,
+//! angular momentum and energy to fourth order only: they drift.
 
 use crate::body::{BodyState, Increment};
 use crate::damping::Damping;
@@ -26,7 +25,7 @@ use crate::step::Stepper;
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Rk4;
 
-/// What a step of [`Rk4`] remembers of one body.
+/// The memory of [`Rk4`] for one body within a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rk4Memory<P: Geometry> {
     /// The state at the step's start.
@@ -65,8 +64,7 @@ impl Scheme for Rk4 {
             *memory = Rk4Memory { start: *state, ..Rk4Memory::default() };
         }
         let (half, one, two) = (P::Real::HALF, P::Real::ONE, P::Real::TWO);
-        // The weight of each of the first three stages and the part of a step from the start to
-        // the stage after it.
+        // The weight of each of the first three stages and the fraction of a step from the start to the next stage.
         for (i, (weight, part)) in [(one, half), (two, half), (two, one)].into_iter().enumerate() {
             let at = if i == 0 { At::Boundary } else { At::Stage };
             stepper.evaluate::<ExplicitDampers>(at)?;
@@ -110,7 +108,7 @@ impl<P: Geometry> Rk4Memory<P> {
     }
 }
 
-/// Moves the pose on by `velocity` over `time`; the rotation vector it turned by.
+/// Advances the pose by `velocity` over `time`; returns the rotation vector.
 #[inline(always)]
 fn advance<P: Geometry>(
     state: &mut BodyState<P>,

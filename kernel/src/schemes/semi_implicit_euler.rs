@@ -1,12 +1,11 @@
 //! Semi-implicit Euler: kick, then drift (symplectic Euler; de Vogelaere 1956).
 //!
-//! What [`crate::schemes::Dbd`] collapses to without dampers, at a third of its evaluations; the
-//! free rotor is a splitting that keeps the world's angular momentum. First order, one evaluation,
-//! stable for `ω_max·h < 2`. Symplectic without dampers: the energy oscillates by O(h) and does
-//! not drift; linear and, with quaternions, angular momentum are kept to rounding; with damped
-//! bushings and points on lines, whose law does not keep it, the linear one alone. With dampers the
-//! kick comes in two halves, each followed by a pairwise sweep that is told of it (see
-//! [`crate::damping`]); around the drift, too, sweeps would lower the limit towards √2.
+//! Equal to [`crate::schemes::Dbd`] without dampers, at a third of its evaluations; the free rotor is a splitting that
+//! conserves the world's angular momentum. First order, one evaluation, stable for `ω_max·h < 2`. Symplectic without
+//! dampers: the energy oscillates by O(h) and does not drift; linear and, with quaternions, angular momentum are
+//! conserved to rounding; with damped bushings and points on lines, whose law does not conserve it, only the linear
+//! one. With dampers the kick is split into halves, each followed by a pairwise damper pass that includes it (see
+//! [`crate::damping`]); damper passes around the drift as well would lower the limit towards √2.
 
 use crate::damping::Damping;
 use crate::forces::{At, Dampers, DampersLeft};

@@ -9,9 +9,9 @@ use crate::sketch::{Sketch, assert_not_negative, assert_unit, dot, point, vector
 use crate::vector::Vec3;
 
 impl Sketch {
-    /// A revolute joint of bushings: a point \[m\] and a unit axis of either body in its own axes,
-    /// `stiffness` \[N/m\] and `damping` \[N·s/m\] across the axis, `ratio` times as much along it, and the
-    /// `lever` \[m\] at which they hold the axes in line.
+    /// A revolute joint of bushings: a point \[m\] and a unit axis of each body in its own axes, `stiffness` \[N/m\]
+    /// and `damping` \[N·s/m\] across the axis, `ratio` times as much along it, and the `lever` arm \[m\] at which they
+    /// align the axes.
     ///
     /// # Panics
     /// Where a number is out of range or a list is full.
@@ -28,7 +28,7 @@ impl Sketch {
         assert_unit(dot(axes[1], axes[1]));
         assert_not_negative(lever);
         assert_not_negative(ratio);
-        assert!(lever > 0.0, "a lever has a length");
+        assert!(lever > 0.0, "the length of a lever is not positive");
         let element = self.revolutes.count;
         let law = Law::Revolute;
         let mut sketch = self.bushing_group(law, between, points, element, [stiffness, damping]);
@@ -38,9 +38,8 @@ impl Sketch {
         sketch
     }
 
-    /// A universal joint without a spider: a point \[m\] and a unit axis of either body in its own axes,
-    /// `stiffness` \[N/m\], `damping` \[N·s/m\], and the `lever` \[m\] at which they hold the axes
-    /// perpendicular.
+    /// A universal joint without a spider: a point \[m\] and a unit axis of each body in its own axes, `stiffness`
+    /// \[N/m\], `damping` \[N·s/m\], and the `lever` arm \[m\] at which they keep the axes perpendicular.
     ///
     /// # Panics
     /// Where a number is out of range or a list is full.

@@ -15,11 +15,11 @@ use crate::plane::{Axial, Heading, Vec2};
 use crate::sketch::Sketch;
 use crate::vector::{Quaternion, Vec3};
 
-/// The first items, as many as the model has, each rounded.
+/// The first items, as many as in the model, each rounded.
 macro_rules! rounded {
     ($list:expr, $count:ident, $item:ident => $round:expr) => {{
         let list = &$list;
-        assert!(list.count == $count, "a model has the sizes of its sketch");
+        assert!(list.count == $count, "the sizes of the model and the sketch differ");
         let $item = &list.items[0];
         let mut all = [$round; $count];
         let mut i = 0;
@@ -32,7 +32,7 @@ macro_rules! rounded {
     }};
 }
 
-/// Roundings of a precision's vectors, moments, inertias and turns.
+/// Rounding functions for a precision's vectors, moments, inertias and rotations.
 macro_rules! roundings {
     ($($real:ident: $vector:ident, $quaternion:ident, $flat:ident, $axial:ident, $about:ident,
         $heading:ident;)*) => {
@@ -46,12 +46,12 @@ macro_rules! roundings {
             }
 
             const fn $flat(v: &Vec3<f64>) -> Vec2<$real> {
-                assert!(v.z == 0.0, "a point or a vector leaves the plane z = 0");
+                assert!(v.z == 0.0, "a point or a vector is not in the plane z = 0");
                 Vec2::new(v.x as $real, v.y as $real)
             }
 
             const fn $axial(m: &Vec3<f64>) -> Axial<$real> {
-                assert!(m.x == 0.0 && m.y == 0.0, "a turn or a torque of the plane is about z");
+                assert!(m.x == 0.0 && m.y == 0.0, "a rotation or a torque is not about z");
                 $about(m)
             }
 
@@ -60,7 +60,7 @@ macro_rules! roundings {
             }
 
             const fn $heading(q: &Quaternion<f64>) -> Heading<$real> {
-                assert!(q.v.x == 0.0 && q.v.y == 0.0, "an orientation leaves the plane z = 0");
+                assert!(q.v.x == 0.0 && q.v.y == 0.0, "an orientation is not about z");
                 Heading::new(q.w as $real, q.v.z as $real)
             }
         )*
@@ -98,8 +98,8 @@ macro_rules! models {
                 /// The model in this precision; its sizes are [`Sketch::counts`].
                 ///
                 /// # Panics
-                /// Where an element names a body that is not there; see [`Model::checked`]. In the
-                /// plane where something leaves it.
+                /// Where an element refers to a body that does not exist; see [`Model::checked`]. In the plane, where a
+                /// part is not in it.
                 #[must_use]
                 pub const fn $function<
                     const BODIES: usize,
@@ -215,9 +215,8 @@ models! {
         stored flat_f32 heading_f32 flat_f32 axial_f32 flat_f32;
 }
 
-/// A `static` model from a [`Sketch`] in a `const`, in precision `F64`, `F32` or `Fixed` or, where it lies
-/// in the plane z = 0, `Planar64` or `Planar32`: the compiler counts its parts, rounds them once and checks
-/// every index.
+/// A `static` model from a [`Sketch`] in a `const`, in precision `F64`, `F32` or `Fixed` or, for a model in the plane z
+/// = 0, `Planar64` or `Planar32`: the compiler counts its parts, rounds them once and checks every index.
 ///
 /// ```
 /// use dbd_kernel::sketch::{Sketch, Spring, Start};
@@ -238,7 +237,7 @@ models! {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// What is not there is refused by the compiler:
+/// A reference to a body that does not exist is a compile error:
 ///
 /// ```compile_fail
 /// use dbd_kernel::BodyIndex;
@@ -252,7 +251,7 @@ models! {
 /// dbd_kernel::model!(static MODEL: F64 = WRONG);
 /// ```
 ///
-/// As is what leaves the plane of a planar model:
+/// So is a part that is not in the plane of a planar model:
 ///
 /// ```compile_fail
 /// use dbd_kernel::sketch::{Sketch, Start};

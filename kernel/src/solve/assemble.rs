@@ -1,8 +1,8 @@
-//! The matrix `μ·M + Σ w·j·jᵀ` at a pose: masses, and every element as the springs that it is made of.
+//! The matrix `μ·M + Σ w·j·jᵀ` at a pose: masses, and every element as a set of springs.
 //!
-//! `(model, pose, weights) => blocks`. Velocities and angular velocities along the world's axes. Of an
-//! element's tangent the material part alone, which no pose and no load makes indefinite: springs along
-//! its directions, `w = κ·k + χ·c` of stiffness and damping. What its tension adds as it turns is left out.
+//! `(model, pose, weights) => blocks`. Velocities and angular velocities are in world axes. Only the material part of
+//! an element's tangent, which no pose and no load makes indefinite: springs along its directions, `w = κ·k + χ·c` of
+//! stiffness and damping. Its geometric stiffness is left out.
 
 use crate::body::BodyState;
 use crate::damping::{Direction, Far, FarHeld};
@@ -64,7 +64,7 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
             return along(law, &seen, (pencil, places.frames), system);
         }
         let mut mount = Mount::new(system, ends, before + row);
-        // Velocities and turns of the matrix are along the world's axes.
+        // Velocities and rotations of the matrix are in world axes.
         let mut add = |weight, direction: &Direction<P::Space>| {
             let [a, b] = direction.moments;
             let moments = [seen.a.moment_to_world(a), seen.b.moment_to_world(b)];
@@ -79,7 +79,7 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
     });
 }
 
-/// A spring and a damper along the directions of a law and of its branches, of all pairs of their bodies.
+/// A spring and a damper along the directions of a law and of its branches, for all pairs of their bodies.
 fn along<P: Geometry>(
     law: &dyn Law<P>,
     seen: &Seen<'_, P>,
@@ -194,7 +194,7 @@ impl<'s, S: Space> Mount<'s, S> {
         }
     }
 
-    /// A point at the end of both arms.
+    /// Adds a point at both lever arms.
     #[inline(always)]
     fn hold_point(&mut self, weight: S::Real, arms: [S::Vector; 2]) {
         for (end, arm) in self.ends.into_iter().zip(arms) {
@@ -208,7 +208,7 @@ impl<'s, S: Space> Mount<'s, S> {
         }
     }
 
-    /// An axis.
+    /// Adds an axis.
     #[inline(always)]
     fn hold_axis(&mut self, weight: S::Real, axis: S::Vector) {
         for end in self.ends {
@@ -221,7 +221,7 @@ impl<'s, S: Space> Mount<'s, S> {
         }
     }
 
-    /// A joint by its seat.
+    /// Adds a lumped joint.
     #[inline(always)]
     fn hold<P: Geometry<Space = S, Real = S::Real, Vector = S::Vector>, T: Terms<P>>(
         &mut self,

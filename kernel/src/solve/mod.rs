@@ -1,9 +1,9 @@
-//! The linear system of a scheme that takes the joints' stiffness into its step.
+//! The linear system of a scheme that includes the joints' stiffness in its step.
 //!
-//! `(plan, pose, weights) => M-weighted tangent, factor, solution`. The matrix has a block for each body
-//! and for each pair of bodies that elements lie between, and what elimination fills; the order of
-//! elimination is found when the model is built ([`Plan`](crate::model::Plan)) and kept in flash. No pivoting, no iteration:
-//! the matrix is positive definite for every step, stiffness and damping.
+//! `(plan, pose, weights) => M-weighted tangent, factor, solution`. The matrix has a block for each body, for each pair
+//! of bodies joined by elements, and for the fill-in; the elimination order is determined when the model is built
+//! ([`Plan`](crate::model::Plan)) and stored in flash. No pivoting, no iteration: the matrix is positive definite for
+//! every step, stiffness and damping.
 
 mod assemble;
 mod pencil;

@@ -1,6 +1,6 @@
-//! What masses, dampers and springs weigh in a matrix.
+//! The weights of masses, dampers and springs in a matrix.
 //!
-//! `(stiffness, damping) => κ·k + χ·c`. A scheme's constants and its step make the three weights.
+//! `(stiffness, damping) => κ·k + χ·c`. The three weights follow from a scheme's constants and its step.
 
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
@@ -18,7 +18,7 @@ pub struct Pencil<R> {
 }
 
 impl<R: Real> Pencil<R> {
-    /// That of a spring and its damper.
+    /// The weight of a spring and its damper.
     #[inline(always)]
     pub(super) fn weight(&self, stiffness: R, damping: R) -> R {
         self.stiffness * stiffness + self.damping * damping

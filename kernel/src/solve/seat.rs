@@ -1,8 +1,8 @@
-//! Joints as a point and an axis that are held: the tangent of many springs in closed form.
+//! Lumped joints, a point and an axis: the tangent of many springs in closed form.
 //!
-//! `(group at t = 0, weights) => seat`. The springs of most joints lie so that all directions are held
-//! alike at a centre, `Σ w·u·uᵀ = s·I`, and turns across an axis, `Σ w·(ρ×u)·(ρ×u)ᵀ = n·(I − e·eᵀ)`: then the
-//! joint is this point and this axis, wherever its bodies are. Any other group stands for its elements.
+//! `(group at t = 0, weights) => lumped joint`. The springs of most joints are isotropic for displacements of a centre,
+//! `Σ w·u·uᵀ = s·I`, and for rotations across an axis, `Σ w·(ρ×u)·(ρ×u)ᵀ = n·(I − e·eᵀ)`: the joint is then equivalent
+//! to this point and this axis in any pose. Any other group is assembled element by element.
 
 use crate::freedoms::Freedoms as _;
 use crate::geometry::Geometry;
@@ -12,23 +12,23 @@ use crate::real::Real;
 use crate::solve::pencil::{Pencil, weight_of};
 use crate::space::{Linear as _, Space, Vector as _};
 
-/// Where and how much a joint holds.
+/// The centre, the axis and the weights of a lumped joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seat<S: Space> {
-    /// \[m\] the arms of its centre, in the axes of each body.
+    /// \[m\] the lever arms of its centre, in the axes of each body.
     pub(super) arms: [S::Vector; 2],
     /// \[1\] unit axis in the first body's axes.
     pub(super) axis: S::Vector,
-    /// Weight of the point; 0 of a group that stands for its elements.
+    /// Weight of the point; 0 for a group that is assembled element by element.
     pub(super) point: S::Real,
-    /// \[m²\] weight of the axis; 0 of a point alone.
+    /// \[m²\] weight of the axis; 0 without an axis.
     pub(super) across: S::Real,
 }
 
-/// What the springs of a joint may differ by from what they are taken for, beside the stiffest.
+/// The largest deviation of a joint's springs from the lumped form, relative to the stiffest.
 const ALIKE: f64 = 1e-3;
 
-/// The seats of a model's groups at its initial pose.
+/// The lumped joints of a model's groups at its initial pose.
 pub(crate) fn find<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
@@ -63,7 +63,7 @@ fn seat_of<P: Geometry, T: Terms<P>>(
     }
     let part = P::Real::ONE / P::Real::from_i32(group.elements() as i32);
     let centre = centre.map(|sum| sum * part);
-    // The ground has no arm: what is seen from the other body lies as much apart.
+    // The ground has no lever arm: the points of the other body have the same distances.
     let seen = usize::from(group.a.is_world());
     let offset = |element: &Placed<'_, P::Vector>| arms::<P>(element)[seen] - centre[seen];
     let (mut axis, mut square, mut far) = (P::Vector::ZERO, zero, zero);
@@ -77,7 +77,7 @@ fn seat_of<P: Geometry, T: Terms<P>>(
             (axis, square) = (away, away.dot(away));
         }
     }
-    // Points at one place are apart by rounding.
+    // Coincident points differ by rounding.
     let rounding = P::Real::from_f64(64.0) * P::Real::epsilon();
     if square < rounding * rounding * far {
         (axis, square) = (P::Vector::ZERO, zero);
@@ -157,7 +157,7 @@ mod tests {
         }
     }
 
-    /// What rounding leaves between the points of a spherical joint is no axis, wherever it lies.
+    /// Rounding differences between the points of a spherical joint do not make an axis, at any position.
     #[test]
     fn a_spherical_joint_is_a_point_at_any_place() {
         are_points(&DOUBLE);

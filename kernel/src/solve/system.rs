@@ -1,7 +1,7 @@
 //! A sparse symmetric system of one block per body and per pair of bodies, solved in place.
 //!
-//! `(plan, blocks, right sides) => solution`: block L·D·Lᵀ without pivoting (Golub & Van Loan 2013, section
-//! 4.1), bodies in the order of the plan. For a positive definite matrix no pivot is needed.
+//! `(plan, blocks, right sides) => solution`: block L·D·Lᵀ without pivoting (Golub & Van Loan 2013, section 4.1),
+//! bodies in the elimination order. A positive definite matrix needs no pivoting.
 
 use crate::forces::Wrench;
 use crate::freedoms::Freedoms;
@@ -9,7 +9,7 @@ use crate::index::BodyIndex;
 use crate::model::Plan;
 use crate::space::{BlockOf, Space};
 
-/// The blocks of a system, lent for a step.
+/// The blocks of a system, borrowed for a step.
 pub(crate) struct System<'s, S: Space> {
     pub(crate) plan: Plan<'s>,
     /// One per body.
@@ -22,7 +22,7 @@ impl<S: Space> System<'_, S> {
     /// Factors the matrix in place.
     ///
     /// # Errors
-    /// The first body with a pivot that is not positive: its state or its neighbours' is beyond numbers.
+    /// The first body with a pivot that is not positive: its state or its neighbours' is out of the number's range.
     pub(crate) fn factor(&mut self) -> Result<(), BodyIndex> {
         let Plan { order, mut pairs, mut targets, .. } = self.plan;
         let (mut blocks, mut first) = (&mut *self.pairs, 0);
@@ -46,7 +46,7 @@ impl<S: Space> System<'_, S> {
                     targets = rest;
                     let target = usize::from(*target).checked_sub(first);
                     if let Some(target) = target.and_then(|row| later.get_mut(row)) {
-                        // The ones before are divided by now.
+                        // The previous blocks are already divided.
                         S::Row::reduce(target, block, other);
                     }
                 }
@@ -60,7 +60,7 @@ impl<S: Space> System<'_, S> {
         Ok(())
     }
 
-    /// Solves a factored system for right sides that lie in wrenches.
+    /// Solves a factored system for right sides stored in wrenches.
     pub(crate) fn substitute(&self, right: &mut [Wrench<S>]) {
         let (mut pairs, mut blocks) = (self.plan.pairs, &*self.pairs);
         for &[body, count] in self.plan.order {
@@ -121,8 +121,8 @@ mod tests {
 
     use super::*;
 
-    /// A ring of four bodies, the first on the ground: elimination of one pair's bodies fills another. The
-    /// product of the whole matrix with what was found is the right side.
+    /// A ring of four bodies, the first on the ground: eliminating one pair's bodies fills another. The product of the
+    /// whole matrix with the solution is the right side.
     #[test]
     fn a_ring_whose_elimination_fills_a_pair_is_solved() {
         let plan = Plan {
@@ -174,7 +174,7 @@ mod tests {
             assert!(off.iter().all(|off| off.dot(*off) < 1e-16), "{found:?} {meant:?}");
         }
         assert_ne!(pairs[3], <[f64; 6]>::EMPTY);
-        // Held by nothing and without mass, a body has no pivot.
+        // Without joints and mass, a body has no pivot.
         diagonal = [<[f64; 6]>::EMPTY; 4];
         let mut system: System<'_, f64> =
             System { plan, diagonal: &mut diagonal, pairs: &mut pairs };

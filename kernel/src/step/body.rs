@@ -9,7 +9,7 @@ use crate::model::Terms;
 use crate::real::Real as _;
 use crate::rotation;
 
-/// `scale·(h·D⁻¹)·Q` for the velocities of one body, and what it falls by meanwhile.
+/// `scale·(h·D⁻¹)·Q` for the velocities of one body, and the increment by gravity.
 #[inline(always)]
 pub(crate) fn kick_body<P: Geometry>(
     state: &mut BodyState<P>,
@@ -25,7 +25,7 @@ pub(crate) fn kick_body<P: Geometry>(
     P::spin_up(&mut state.angular_velocity, increment.angular);
 }
 
-/// One body straight on, and as a free rotor of second order.
+/// Moves one body in translation, and as a free rotor of second order.
 #[inline(always)]
 pub(crate) fn drift_body<P: Geometry>(
     state: &mut BodyState<P>,
@@ -36,7 +36,7 @@ pub(crate) fn drift_body<P: Geometry>(
     rotation::free_rotor::<P>(body, &mut state.orientation, &mut state.angular_velocity, time);
 }
 
-/// [`drift_body`], and the frame of where it gets to.
+/// [`drift_body`], and the frame of the new pose.
 #[inline(always)]
 pub(crate) fn drift_to_frame<P: Geometry>(
     state: &mut BodyState<P>,
@@ -55,7 +55,7 @@ pub(crate) fn drift_to_frame<P: Geometry>(
     }
 }
 
-/// One body by half a kick and a drift, and its frame. Apart: what is long has the registers for itself.
+/// Half a kick and a drift of one body, and its frame. Not inlined: the long code gets all registers.
 #[inline(never)]
 pub(super) fn move_apart<P: Geometry, T: Terms<P>>(
     state: &mut BodyState<P>,

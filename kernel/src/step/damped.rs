@@ -1,4 +1,4 @@
-//! What a scheme does with dampers: half a step of impulses, with the forces' kick or by themselves.
+//! Dampers in a scheme: half a step of impulses, with the forces' kick or alone.
 //!
 //! `(velocities, wrenches, frames) => velocities`.
 
@@ -12,7 +12,7 @@ use crate::real::Real;
 use crate::step::Workspace;
 
 impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
-    /// Brings the frames to the present pose where sweeps need them and no evaluation has.
+    /// Updates the frames to the present pose where a damper pass needs them and no evaluation has done so.
     #[inline(always)]
     pub fn place_for_sweep(&mut self) {
         if self.has_dampers() {
@@ -20,9 +20,9 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    /// Kick and dampers of half a step as one: a kick by half, then the dampers in ascending
-    /// order, which know of it. A strong damper leaves the rate at which it bears the force.
-    /// Frames and wrenches are those of the present pose, without dampers.
+    /// Kick and dampers of half a step combined: a half kick, then the dampers in ascending order, which include it. A
+    /// strong damper leaves the rate at which it balances the force. Frames and wrenches are those of the present pose,
+    /// without dampers.
     #[inline(always)]
     pub fn damped_kick_forward(&mut self) {
         self.kick_and_sweep::<false>();
@@ -59,8 +59,8 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    /// [`Self::damped_kick_forward`] or its reverse, with the dampers as `D` says. Joint by joint the
-    /// kick of a pose is kept in place of its wrenches: there are two of it.
+    /// [`Self::damped_kick_forward`] or its reverse, with dampers according to `D`. Joint by joint the kick of a pose
+    /// is stored in place of its wrenches, because it is used twice.
     #[inline(always)]
     pub(crate) fn damped_kick<D: Dampers, const REVERSE: bool>(&mut self) {
         if !(D::JOINT_WISE && self.has_dampers()) {
@@ -88,8 +88,8 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         );
     }
 
-    /// A kick by half, left to the pass where that sums apart. At first it is made of the wrenches and
-    /// takes their place.
+    /// A half kick, left to the damper pass where that has separate sums. When `fresh` it is computed from the wrenches
+    /// and replaces them.
     #[inline(always)]
     fn keep_kick(&mut self, fresh: bool) {
         let fall = self.fall(P::Real::HALF);
@@ -114,9 +114,9 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    /// Half a step of the dampers by themselves in ascending order; frames are those of the
-    /// present pose. Where forces act within the same step, [`Self::damped_kick_forward`] follows
-    /// a strong damper truly; this stops its motion and lets the forces start it anew.
+    /// Half a step of the dampers alone in ascending order; frames are those of the present pose. Where forces act
+    /// within the same step, [`Self::damped_kick_forward`] is accurate for a strong damper; this one stops its motion,
+    /// and the forces have to start it again.
     #[inline(always)]
     pub fn sweep_forward(&mut self) {
         self.sweep_alone::<false>();

@@ -1,4 +1,4 @@
-//! What schemes are made of: evaluation, kick, drift, on the memory of one plant.
+//! The building blocks of schemes: evaluation, kick, drift, on the memory of one plant.
 //!
 //! [`Workspace`] borrows model, state and scratch for one step. A kick changes velocities by
 //! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal ½·h·D⁻¹ is computed once per (model, step),
@@ -30,35 +30,33 @@ use crate::sources::{self, SourceStep};
 use crate::space::{BlockOf, Linear as _, Moment as _, Space as _};
 use crate::status::Cause;
 
-/// What a plant knows of its evaluations. Never part of the state: evaluating anew gives the same
-/// bits.
+/// The evaluation cache of a plant. Never part of the state: evaluating again gives the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub(crate) struct Ledger {
     /// Force evaluations performed since t = 0.
     pub(crate) evaluations: u64,
-    /// Whether frames and wrenches are those of the present pose but for inputs, without dampers and with
-    /// settled turn counts: a scheme that ends on an evaluation need not begin with one.
+    /// Whether frames and wrenches are those of the present pose except for inputs, without dampers and with updated
+    /// revolution counts: a scheme that ends with an evaluation need not begin with one.
     pub(crate) fresh: bool,
     /// Whether the inputs' forces among them are those of the present signals.
     pub(crate) pushed: bool,
-    /// Whether the joints' levers are those of the present pose, with its kick in place of the wrenches.
+    /// Whether the joints' damping modes are those of the present pose, with its kick in place of the wrenches.
     pub(crate) ready: bool,
-    /// Whether a drift has gone by since the laws' memories were last brought on.
+    /// Whether there was a drift since the laws' memories were last advanced.
     pub(crate) moved: bool,
-    /// At how many places a sweep of levers stops.
+    /// The number of entries of a joint-wise damper pass.
     pub(crate) stops: u16,
-    /// Whether what a scheme remembers is of the present state. Unlike the others part of a snapshot.
+    /// Whether a scheme's memory belongs to the present state. Unlike the others part of a snapshot.
     pub(crate) begun: bool,
 }
 
-/// Model, state and scratch of one plant, lent for one step, with the scheme's memory `S` per body.
+/// Model, state and scratch of one plant, borrowed for one step, with the scheme's memory `S` per body.
 ///
-/// A scheme is written with the methods of its [`Workspace`]: [`Workspace::evaluate`],
-/// [`Workspace::kick`], [`Workspace::drift`], the sweeps, and with [`Self::each`] for what is a
-/// scheme's own.
+/// A scheme is written with the methods of its [`Workspace`]: [`Workspace::evaluate`], [`Workspace::kick`],
+/// [`Workspace::drift`], the damper passes, and with [`Self::each`] for scheme-specific operations.
 pub struct Stepper<'s, 'm, P: Geometry, T: Terms<P>, S> {
-    /// What does not depend on the scheme.
+    /// The part that does not depend on the scheme.
     pub(crate) workspace: Workspace<'s, 'm, P, T>,
     /// The scheme's memory per body.
     pub(crate) memory: &'s mut [S],
@@ -80,8 +78,8 @@ impl<P: Geometry, T: Terms<P>, S> DerefMut for Stepper<'_, '_, P, T, S> {
     }
 }
 
-/// Model, state and scratch of one plant, lent for one step: the same for all schemes, so that what
-/// they are made of is compiled once for them all.
+/// Model, state and scratch of one plant, borrowed for one step: the same for all schemes, so that its methods are
+/// compiled once for all of them.
 pub struct Workspace<'s, 'm, P: Geometry, T: Terms<P>> {
     /// The model.
     pub(crate) model: ModelRef<'m, P, T>,
@@ -89,16 +87,16 @@ pub struct Workspace<'s, 'm, P: Geometry, T: Terms<P>> {
     pub(crate) h: P::Real,
     /// ½·h·D⁻¹ per body.
     pub(crate) diagonals: &'s [Diagonal<P::Space>],
-    /// The TSDAs at rest.
+    /// The reference data of TSDAs.
     pub(crate) rests: &'s [P::Rest],
-    /// The dampers' shares.
+    /// The dampers' weights.
     pub(crate) shares: &'s [Share<P::Real>],
-    /// The joints' levers, none where dampers act otherwise.
+    /// The joints' damping modes, empty where dampers act otherwise.
     pub(crate) levers: &'s mut [Lever<P>],
-    /// The plan of the matrix, its joints and its blocks; none where the scheme has no matrix.
+    /// The elimination order of the matrix, its lumped joints and its blocks; empty where the scheme has no matrix.
     pub(crate) plan: Plan<'m>,
     pub(crate) seats: &'s [Seat<P::Space>],
-    /// The same for half a step, none where the scheme takes none.
+    /// The same for half a step, empty where the scheme has none.
     pub(crate) half_seats: &'s [Seat<P::Space>],
     pub(crate) blocks: &'s mut [BlockOf<P::Space>],
     pub(crate) pair_blocks: &'s mut [BlockOf<P::Space>],
@@ -112,11 +110,11 @@ pub struct Workspace<'s, 'm, P: Geometry, T: Terms<P>> {
     pub(crate) signals: &'s mut [Signal<P::Real>],
     /// The bodies' states.
     pub(crate) bodies: &'s mut [BodyState<P>],
-    /// The torsion springs' turn counts.
+    /// The torsion springs' revolution counts.
     pub(crate) turns: &'s mut [i32],
     /// The laws' memories.
     pub(crate) law_states: &'s mut StatesIn<P, T>,
-    /// The shares of the laws' dampers.
+    /// The weights of the laws' dampers.
     pub(crate) law_shares: &'s SharesIn<P, T>,
     /// The number of this step, from 0.
     pub(crate) step: u64,
@@ -126,11 +124,11 @@ pub struct Workspace<'s, 'm, P: Geometry, T: Terms<P>> {
     pub(crate) wrenches: &'s mut [Wrench<P::Space>],
     /// The wrenches without inputs of each input's bodies.
     pub(crate) unpushed: &'s mut [Unpushed<P::Space>],
-    /// What a damper pass has given to the bodies; may be empty without dampers.
+    /// The sums of a damper pass per body; may be empty without dampers.
     pub(crate) sums: &'s mut [P::PassSum],
-    /// Whether the groups are in line, see [`forces::are_in_line`].
+    /// Whether the groups are uniform, see [`forces::are_in_line`].
     pub(crate) in_line: bool,
-    /// Evaluations and the freshness of the wrenches.
+    /// The number of evaluations and the validity of the wrenches.
     pub(crate) ledger: &'s mut Ledger,
 }
 
@@ -155,9 +153,9 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
             || (<LawsIn<P, T> as Laws<P>>::DAMPED && self.model.laws.is_damped())
     }
 
-    /// Brings the tables of inputs to the time of a stage, at `part` of this step, 0 to 1. A step
-    /// begins with part 0; a scheme that never calls this holds its inputs over the step. A table over a
-    /// sensor is held over it by every scheme.
+    /// Samples the tables of inputs at the time of a stage, at `part` of this step, 0 to 1. A step begins with part 0;
+    /// a scheme that never calls this holds its inputs over the step. A table over a sensor is held over the step by
+    /// every scheme.
     #[inline(always)]
     pub fn sample_inputs(&mut self, part: P::Real) {
         if T::INPUTS {
@@ -180,7 +178,8 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// its reverse. A step has at least one evaluation [`At::Boundary`].
     ///
     /// # Errors
-    /// [`Cause::UndefinedTwist`] names the torsion spring whose twist is undefined, [`Cause::Undefined`] the law.
+    /// [`Cause::UndefinedTwist`] names the torsion spring whose torsion angle is undefined, [`Cause::Undefined`] the
+    /// law.
     #[inline(always)]
     pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
         if P::Real::LANES == 1 {
@@ -190,14 +189,13 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    // One body of it for all of a scheme's evaluations.
+    // Compiled once for all of a scheme's evaluations.
     fn evaluate_apart<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
         self.evaluate_here::<D>(at, placed)
     }
 
-    /// [`Self::evaluate`] for a scheme that calls it in one place; `placed` tells whether the frames are
-    /// those of the present pose. A model of all kinds shares one body of it with all schemes: its is
-    /// large.
+    /// [`Self::evaluate`] for a scheme with a single call; `placed` states whether the frames are those of the present
+    /// pose. A model of all kinds, whose evaluation is large, has one copy of it for all schemes.
     ///
     /// # Errors
     /// As [`Self::evaluate`].
@@ -210,7 +208,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    // Lanes are stepped by a function that may use more instructions than its callees: it has none.
+    // Inlined for lanes: they are stepped by a function with more target features than its callees.
     #[inline(always)]
     fn evaluate_here<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
         self.ledger.evaluations += 1;
@@ -238,25 +236,24 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         Ok(())
     }
 
-    /// Whether the wrenches are those of the present pose, its inputs and this step's loads, without dampers:
-    /// the last evaluation was of [`DampersLeft`](crate::forces::DampersLeft), [`At::Boundary`],
-    /// and nothing has moved since, be it in the step before.
+    /// Whether the wrenches are those of the present pose, its inputs and this step's loads, without dampers: the last
+    /// evaluation was with [`DampersLeft`](crate::forces::DampersLeft), [`At::Boundary`], and nothing has moved since,
+    /// even in the last step.
     #[inline]
     #[must_use]
     pub fn is_fresh(&self) -> bool {
         self.is_placed() && self.ledger.pushed
     }
 
-    /// Brings the forces of inputs among the wrenches to the present signals where that is all that
-    /// [`Self::is_fresh`] lacks: a controller that sets an input in every step costs no evaluation. Whether the
-    /// wrenches are fresh then.
+    /// Updates the forces of inputs in the wrenches to the present signals where [`Self::is_fresh`] lacks only that: a
+    /// controller that sets an input in every step costs no evaluation. Returns whether the wrenches are then valid.
     #[inline(always)]
     pub fn refresh(&mut self) -> bool {
         if !self.is_placed() {
             return false;
         }
         if T::INPUTS && !self.ledger.pushed {
-            // Joint by joint the kick stands in place of the wrenches.
+            // Joint by joint the kick is stored in place of the wrenches.
             if self.ledger.ready {
                 return false;
             }
@@ -268,7 +265,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         true
     }
 
-    /// Whether the wrenches are those of the present pose and this step's loads but for inputs.
+    /// Whether the wrenches are those of the present pose and this step's loads except for inputs.
     #[inline(always)]
     fn is_placed(&self) -> bool {
         let step = self.step;
@@ -285,7 +282,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    // What is long leaves the registers to what is longer.
+    // Not inlined: long code would take registers from longer code.
     #[inline(never)]
     fn kick_alone(&mut self, scale: P::Real) {
         self.kick_here(scale);
@@ -305,20 +302,20 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    /// \[m/s²\] the field of gravity, `None` where weights are among the wrenches.
+    /// \[m/s²\] gravity, `None` where weights are part of the wrenches.
     #[inline(always)]
     pub(crate) fn field(&self) -> Option<P::Vector> {
         let field = || self.model.gravity.first().copied().unwrap_or(P::Vector::ZERO);
         if P::FALLS && T::GRAVITY { Some(field()) } else { None }
     }
 
-    /// \[m/s\] by what bodies fall in `scale` steps, likewise.
+    /// \[m/s\] the increment by gravity in `scale` steps, likewise.
     #[inline(always)]
     pub(crate) fn fall(&self, scale: P::Real) -> Option<P::Vector> {
         self.field().map(|gravity| gravity * (scale * self.h))
     }
 
-    /// Moves every body freely for `time` \[s\]: straight on, and as a free rotor (second order).
+    /// Moves every body freely for `time` \[s\]: in translation, and as a free rotor (second order).
     #[inline(always)]
     pub fn drift(&mut self, time: P::Real) {
         self.ledger.fresh = false;
@@ -328,7 +325,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    /// [`Self::kick`] and then [`Self::drift`], a body at a time: its velocities are at hand.
+    /// [`Self::kick`] and then [`Self::drift`], body by body: its velocities stay in registers.
     #[inline(always)]
     pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
         self.ledger.fresh = false;
@@ -342,7 +339,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    /// [`Self::drift`], and the bodies' frames with it.
+    /// [`Self::drift`], including the bodies' frames.
     #[inline(always)]
     pub(crate) fn drift_and_place(&mut self, time: P::Real) {
         self.ledger.fresh = false;
@@ -354,10 +351,10 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    /// [`Self::kick_and_drift`], and the bodies' frames with it.
+    /// [`Self::kick_and_drift`], including the bodies' frames.
     #[inline(always)]
     pub(crate) fn kick_drift_and_place(&mut self, scale: P::Real, time: P::Real) {
-        // Of a few bodies in the plane each of two loops is short enough to be unrolled, one is not.
+        // For a few bodies in the plane each of two loops is short enough to be unrolled, a combined one is not.
         if P::Space::PLANAR {
             self.kick(scale);
             return self.drift_and_place(time);

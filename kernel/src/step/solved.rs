@@ -1,4 +1,4 @@
-//! What a scheme with a matrix does with the memory of its plant.
+//! The operations of a scheme with a matrix.
 //!
 //! `(wrenches at a pose, weights) => solution in place of the wrenches`.
 
@@ -12,7 +12,7 @@ use crate::status::Cause;
 use crate::step::Workspace;
 
 impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
-    /// Whether anything may be pushed from outside: loads and inputs.
+    /// Whether there may be external forces: loads and inputs.
     #[inline(always)]
     pub(crate) fn is_pushed(&self) -> bool {
         (T::LOADS && !self.model.loads.is_empty()) || (T::INPUTS && !self.model.inputs.is_empty())
@@ -25,13 +25,13 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         T::INPUTS && ground_jumps(model.inputs, model.knots, knots, (*step, *h))
     }
 
-    /// Brings the frames to the present pose.
+    /// Updates the frames to the present pose.
     #[inline(always)]
     pub(crate) fn place_all(&mut self) {
         place_bodies(self.bodies, self.frames);
     }
 
-    /// What loads and inputs push, in place of the wrenches; the frames are those of the pose.
+    /// The forces of loads and inputs, in place of the wrenches; the frames are those of the pose.
     #[inline(always)]
     pub(crate) fn push(&mut self) {
         self.ledger.fresh = false;
@@ -56,7 +56,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         Ok(())
     }
 
-    /// Solves with the matrix of the last [`Self::solve`] once more.
+    /// Solves again with the matrix of the last [`Self::solve`].
     #[inline(always)]
     pub(crate) fn solve_again(&mut self) {
         let plan = self.plan;

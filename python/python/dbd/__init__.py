@@ -1,4 +1,4 @@
-"""Discrete Body Dynamics: multibody plants with the bits of the firmware.
+"""Discrete Body Dynamics: multibody plants, bit-identical to the firmware.
 
 A `Plant` is a scene that is stepped, a `Recording` what it shows meanwhile. Numbers are in SI units;
 arrays are numpy's, a row per time or per body.

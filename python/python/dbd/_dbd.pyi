@@ -12,13 +12,13 @@ from ._state import State
 __version__: str
 
 SCENES: MappingProxyType[str, str]
-"""The scenes that ship, TOML, by name."""
+"""The built-in scenes, TOML, by name."""
 
 CART_PENDULUM: str
-"""The scene that `dbd.gym` steps, TOML."""
+"""The scene of `dbd.gym`, TOML."""
 
 class Plant:
-    """A scene's plant: a multibody system that is stepped with the bits of the firmware."""
+    """A scene's plant: a multibody system, bit-identical to the firmware."""
 
     def __init__(
         self,
@@ -32,7 +32,7 @@ class Plant:
         step: float | str | None = None,
         changes: Sequence[str] = (),
     ) -> None:
-        """A plant from a scene file, or of a scene that ships by its name; `step` in s or as text, `"250us"`, `changes` as of `host-sim run --set`."""
+        """A plant from a scene file or a built-in scene; `step` in s or as text, `"250us"`, `changes` as for `host-sim run --set`."""
 
     @staticmethod
     def from_text(
@@ -47,14 +47,14 @@ class Plant:
         step: float | str | None = None,
         changes: Sequence[str] = (),
     ) -> Plant:
-        """A plant from a scene's text; `name` is what messages call it."""
+        """A plant from a scene's text; `name` is its name in messages."""
 
     @property
     def name(self) -> str:
         """The scene's name."""
     @property
     def duration(self) -> float:
-        """[s] the duration that the scene gives."""
+        """[s] the scene's duration."""
     @property
     def time(self) -> float:
         """[s] the time of the present state."""
@@ -81,10 +81,10 @@ class Plant:
         """Outputs, the columns of a trace: name to SI unit."""
     @property
     def descriptions(self) -> MappingProxyType[str, str]:
-        """Outputs: name to what it is."""
+        """Outputs: name to short description."""
     @property
     def parameters(self) -> MappingProxyType[str, float]:
-        """Parameters: path to value now, SI units."""
+        """Parameters: path to present value, SI units."""
     @property
     def parameter_units(self) -> MappingProxyType[str, str]:
         """Parameters: path to SI unit."""
@@ -93,23 +93,23 @@ class Plant:
         """The bodies' states: copies."""
 
     def set_parameters(self, parameters: dict[str, float]) -> None:
-        """Sets parameters by path, SI units, and goes back to t = 0."""
+        """Sets parameters by path, SI units, and resets to t = 0."""
     def step(self) -> None:
         """One step."""
     def advance(self, steps: int) -> None:
-        """So many steps with held inputs."""
+        """Advances by the given number of steps with held inputs."""
     def advance_to(self, time: float | str) -> None:
-        """On to a time [s], or a text as `"20ms"`, a whole number of steps."""
+        """Advances to a time [s], or a text as `"20ms"`, a whole number of steps."""
     def reset(self) -> None:
-        """Back to t = 0."""
+        """Resets to t = 0."""
     def set(self, name: str, value: float) -> None:
-        """Holds an input at a value [its unit]."""
+        """Sets an input to a value [its unit], held until set again."""
     def get(self, name: str) -> float:
-        """An output as it is now, or what an input is held at [its unit]."""
+        """The present value of an output or input [its unit]."""
     def __setitem__(self, name: str, value: float) -> None: ...
     def __getitem__(self, name: str) -> float: ...
     def read(self, names: Sequence[str] | None = None) -> NDArray[np.float64]:
-        """Outputs as they are now, shape (outputs,)."""
+        """The present outputs, shape (outputs,)."""
     def set_state(
         self,
         state: State | None = None,
@@ -119,11 +119,11 @@ class Plant:
         velocity: ArrayLike | None = None,
         angular_velocity: ArrayLike | None = None,
     ) -> None:
-        """Gives the bodies other states, shapes (bodies, 3), (bodies, 4), (bodies, 3), (bodies, 3)."""
+        """Sets the states of the bodies, shapes (bodies, 3), (bodies, 4), (bodies, 3), (bodies, 3)."""
     def save(self) -> bytes:
         """The state, inputs and set parameters included, as bytes."""
     def restore(self, saved: bytes) -> None:
-        """Goes on from a saved state, bit for bit."""
+        """Restores a saved state bit for bit."""
     def copy(self) -> Plant:
         """Another plant in the same state."""
     def __copy__(self) -> Plant: ...

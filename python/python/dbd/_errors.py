@@ -1,4 +1,4 @@
-"""What goes wrong: `Error` and its cases.
+"""Exceptions: `Error` and its subclasses.
 
 Each has a second base, so that code that knows nothing of this package catches it as what it is.
 """
@@ -7,15 +7,15 @@ from __future__ import annotations
 
 
 class Error(Exception):
-    """Any refusal or failure of this package; its text says what is wrong and what would be right."""
+    """Base of all errors of this package; its text states the problem and the remedy."""
 
 
 class SceneError(Error, ValueError):
-    """The scene cannot be read or is refused, or a parameter is: with file, line and column where they are known."""
+    """The scene cannot be read, or it or a parameter is invalid; with file, line and column if known."""
 
 
 class MethodError(Error, ValueError):
-    """There is no such scheme, damping or precision, or it does not go with the scene or the step."""
+    """The scheme, damping or precision is unknown or not compatible with the scene or the step."""
 
 
 class UnknownName(Error, KeyError):
@@ -26,23 +26,23 @@ class UnknownName(Error, KeyError):
 
 
 class InputError(Error, ValueError):
-    """An input or a parameter cannot take a value: it is not finite, or beyond what the precision holds."""
+    """A value of an input or a parameter is not finite or not representable in the precision."""
 
 
 class TimeError(Error, ValueError):
-    """A time that no whole number of steps leads to, or that has passed, or a text that is no time."""
+    """A time is not a whole number of steps, has passed, or is not a valid time."""
 
 
 class StateError(Error, ValueError):
-    """Bytes or arrays are no state of this plant, or the plant has failed and has none to give."""
+    """Bytes or arrays are not a state of this plant, or the plant has failed and has no valid state."""
 
 
 class LinearisationError(Error, ValueError):
-    """The plant is no linear system of these states near its present state."""
+    """The plant cannot be linearised in these states near its present state."""
 
 
 class BusyError(Error, RuntimeError):
-    """The plant is at work in another thread."""
+    """The plant is in use by another thread."""
 
 
 class StepFailed(Error, RuntimeError):

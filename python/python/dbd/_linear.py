@@ -1,4 +1,4 @@
-"""What `Plant.linearise` returns."""
+"""The result of `Plant.linearise`."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Linear(NamedTuple):
     D: Array
     """Outputs x inputs."""
     drift: Array
-    """dx/dt at the state itself: zero where it is an equilibrium."""
+    """dx/dt at the state itself: zero at an equilibrium."""
     states: list[str]
     """Names of the states."""
     inputs: list[str]
@@ -35,4 +35,4 @@ class Linear(NamedTuple):
     outputs: list[str]
     """Names of the outputs."""
     slowest_left_out: float
-    """[rad/s] of what was left out; infinite where nothing was."""
+    """[rad/s] of the slowest neglected motion; infinite if none was neglected."""

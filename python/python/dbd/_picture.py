@@ -16,7 +16,7 @@ _DOTS = 100  # Per inch.
 
 
 class Picture:
-    """A figure that is drawn anew for each state.
+    """A figure, redrawn for each state.
 
     Args:
         window: Whether it opens one.
@@ -41,7 +41,7 @@ class Picture:
 
             self._figure = pyplot.figure(figsize=_SIZE, dpi=_DOTS, num="dbd/CartPendulum-v0")
             if self._figure.canvas.required_interactive_framework is None:
-                gymnasium.logger.warn("matplotlib opens no window here: render_mode='rgb_array' gives pictures as arrays")
+                gymnasium.logger.warn("matplotlib cannot open a window: use render_mode='rgb_array' to get arrays")
             else:
                 self._pause = pyplot.pause
         else:

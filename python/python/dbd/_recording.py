@@ -1,4 +1,4 @@
-"""Rows of what a plant shows while one's own loop steps it."""
+"""Recording of a plant that is stepped by a custom loop."""
 
 from __future__ import annotations
 
@@ -59,8 +59,8 @@ class Recording:
         self.sample()
 
     def sample(self) -> None:
-        """Adds a row of the present state. At the time of the last row it takes that row's place, for what an input is
-        held at is known once it is set; after a reset or an older state the rows that are later than it are dropped."""
+        """Adds a row of the present state. At the time of the last row it replaces that row, because an input's value
+        is known only once it is set; after a reset or an older state, later rows are dropped."""
         plant = self.plant
         seen = dict(zip(self._outputs, plant.read(self._outputs), strict=True)) if self._outputs else {}
         row = [plant.time] + [float(seen[name]) if name in seen else plant.get(name) for name in self.columns[1:]]
@@ -69,7 +69,7 @@ class Recording:
         self._rows.append(row)
 
     def advance(self, steps: int) -> None:
-        """So many steps with held inputs, with a row before and after.
+        """Advances by the given number of steps with held inputs, with a row before and after.
 
         Raises:
             StepFailed: A step failed; the row before is kept.
@@ -89,13 +89,13 @@ class Recording:
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """A column by name, shape (samples,)."""
         if name not in self.columns:
-            raise UnknownName(f"no column `{name}` was recorded; there are {', '.join(self.columns)}")
+            raise UnknownName(f"no column `{name}` was recorded; known columns: {', '.join(self.columns)}")
         return self.rows[:, self.columns.index(name)]
 
     def write_csv(self, file: str | PathLike[str]) -> None:
-        """Writes a table: names in the first line, then the rows, each number with the digits that bring it back.
+        """Writes a table: names in the first line, then the rows, each number with enough digits to read it back exactly.
 
-        What is undefined is an empty cell, as in the trace of `host-sim run`."""
+        Undefined values are empty cells, as in the trace of `host-sim run`."""
         with open(file, "w", newline="", encoding="utf-8") as out:
             writer = csv.writer(out, lineterminator="\n")
             writer.writerow(self.columns)

@@ -1,4 +1,4 @@
-"""The bodies' states as arrays, and plants that come back from a pickle."""
+"""The bodies' states as arrays, and unpickling of plants."""
 
 from __future__ import annotations
 

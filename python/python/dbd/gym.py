@@ -30,9 +30,9 @@ from ._dbd import CART_PENDULUM, Plant, rollouts
 from ._picture import FRAMES, Picture
 
 FORCE = 20.0
-"""[N] what an action of 1 is."""
+"""[N] the force of an action of 1."""
 PERIOD = 0.02
-"""[s] how long an action is held."""
+"""[s] the hold time of an action."""
 FARTHEST = 0.4
 """[m] of the cart from the middle."""
 STEEPEST = 0.2
@@ -53,7 +53,7 @@ def _every(plant: Plant) -> int:
 
 
 def _spaces() -> tuple[gymnasium.spaces.Box, gymnasium.spaces.Box]:
-    # The rates are beyond what 20 N do before an episode ends.
+    # The rates exceed those that 20 N can cause before an episode ends.
     high = np.array([2 * FARTHEST, 2 * STEEPEST, 20.0, 50.0], dtype=np.float32)
     seen = gymnasium.spaces.Box(-high, high, dtype=np.float32)
     return seen, gymnasium.spaces.Box(-1.0, 1.0, (1,), dtype=np.float32)
@@ -73,7 +73,7 @@ def _place(plant: Plant, random: np.random.Generator) -> None:
 
 
 def _upright(seen: NDArray[np.float64]) -> NDArray[np.float32]:
-    """What is seen with the angle from upright; one row or many."""
+    """The observation, with the angle from upright; one row or many."""
     return (seen + np.array([0.0, _LEAN, 0.0, 0.0])).astype(np.float32)
 
 
@@ -83,7 +83,7 @@ def _picture(window: bool) -> Picture:
 
 def _checked(render_mode: str | None, known: list[str]) -> str | None:
     if render_mode is not None and render_mode not in known:
-        raise ValueError(f"render_mode={render_mode!r}; there are {', '.join(map(repr, known))}")
+        raise ValueError(f"unknown render_mode={render_mode!r}; known modes: {', '.join(map(repr, known))}")
     return render_mode
 
 
@@ -120,16 +120,16 @@ class CartPendulum(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
     def step(
         self, action: NDArray[np.float32]
     ) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
-        """Holds a force for 20 ms. Raises `dbd.InputError` where the action is not a number."""
+        """Holds a force for 20 ms. Raises `dbd.InputError` if the action is not a number."""
         seen = self.plant.rollout(_forces(action).reshape(1, 1), self._every, _SEEN)
         observation = _upright(seen[0])
         self._follow()
         return observation, 1.0, bool(_over(observation)), False, {}
 
     def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
-        """The present state as a picture, height x width x 3; `None` where a window shows it, or no mode is set."""
+        """The present state as a picture, height x width x 3; `None` if a window shows it, or no mode is set."""
         if self.render_mode is None:
-            gymnasium.logger.warn("render() shows nothing without a render_mode: 'human' or 'rgb_array'")
+            gymnasium.logger.warn("render() needs a render_mode: 'human' or 'rgb_array'")
             return None
         picture = self._draw()
         return picture.pixels() if self.render_mode == "rgb_array" else None
@@ -152,7 +152,7 @@ class CartPendulum(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
 
 class CartPendulumVector(VectorEnv[NDArray[np.float32], NDArray[np.float32], NDArray[Any]]):
-    """Many of them, stepped on threads; each has the bits of one with its seed.
+    """Many of them, stepped on threads; each is bit-identical to a single one with its seed.
 
     An episode that ended begins anew with the next step, whose action is not used: `AutoresetMode.NEXT_STEP`.
 
@@ -179,7 +179,7 @@ class CartPendulumVector(VectorEnv[NDArray[np.float32], NDArray[np.float32], NDA
         self.render_mode = _checked(render_mode, self.metadata["render_modes"])
         self._shown: Picture | None = None
         if num_envs < 1:
-            raise ValueError(f"there are no {num_envs} environments; one at least")
+            raise ValueError(f"num_envs is {num_envs}; give at least 1")
         self.num_envs = num_envs
         first = _plant()
         self.plants = [first] + [first.copy() for _ in range(num_envs - 1)]
@@ -205,7 +205,7 @@ class CartPendulumVector(VectorEnv[NDArray[np.float32], NDArray[np.float32], NDA
         super().reset(seed=seed if isinstance(seed, int) else None)
         seeds = list(range(seed, seed + self.num_envs)) if isinstance(seed, int) else seed
         if seeds is not None and len(seeds) != self.num_envs:
-            raise ValueError(f"{len(seeds)} seeds for {self.num_envs} environments; one each")
+            raise ValueError(f"{len(seeds)} seeds for {self.num_envs} environments; give one per environment")
         for row, own in enumerate(seeds or []):
             if own is not None:
                 self._randoms[row] = gymnasium.utils.seeding.np_random(own)[0]
@@ -216,7 +216,7 @@ class CartPendulumVector(VectorEnv[NDArray[np.float32], NDArray[np.float32], NDA
     def step(
         self, actions: NDArray[np.float32]
     ) -> tuple[NDArray[np.float32], NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
-        """Holds a force on each for 20 ms. Raises `dbd.InputError` where one is not a number."""
+        """Holds a force on each for 20 ms. Raises `dbd.InputError` if one is not a number."""
         forces = _forces(actions).reshape(self.num_envs, 1, 1)
         on = np.flatnonzero(~self._ended)
         if len(on) > 0:
@@ -238,7 +238,7 @@ class CartPendulumVector(VectorEnv[NDArray[np.float32], NDArray[np.float32], NDA
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:  # type: ignore[override]
         """The present states as pictures, each height x width x 3."""
         if self.render_mode is None:
-            gymnasium.logger.warn("render() shows nothing without render_mode='rgb_array'")
+            gymnasium.logger.warn("render() needs render_mode='rgb_array'")
             return None
         if self._shown is None:
             self._shown = _picture(False)

@@ -60,7 +60,7 @@ fn what_is_damaged_is_refused_with_its_place() {
         &["trace.csv:22: the file ends within this line", "run the scene again"],
     );
     refused(&cut(text.len() - 1), &keys, &["trace.csv:22: the file ends within this line"]);
-    refused(without(21).as_bytes(), &keys, &[ends, "summary.json says that the run came to 0.2s"]);
+    refused(without(21).as_bytes(), &keys, &[ends, "summary.json states a run to 0.2s"]);
     refused(
         without(9).as_bytes(),
         &keys,
@@ -70,10 +70,10 @@ fn what_is_damaged_is_refused_with_its_place() {
     refused(
         without(0).as_bytes(),
         &keys,
-        &["trace.csv:1:1: column 1: `0.0` stands where a trace has `time`"],
+        &["trace.csv:1:1: column 1: found `0.0`, expected `time`"],
     );
     let twice = text.clone() + lines[21] + "\n";
-    refused(twice.as_bytes(), &keys, &["trace.csv:23: the time 0.2s does not come after"]);
+    refused(twice.as_bytes(), &keys, &["trace.csv:23: the time 0.2s is not after"]);
     refused(b"", &keys, &["trace.csv: is empty"]);
     refused(cut(lines[0].len() + 1).as_slice(), &keys, &["trace.csv:1: the trace has no rows"]);
     // Numbers.
@@ -85,20 +85,20 @@ fn what_is_damaged_is_refused_with_its_place() {
     refused(
         with(21, 3, "0.25").as_bytes(),
         &keys,
-        &["trace.csv:22: the last row does not have the bits of `state_hash`"],
+        &["trace.csv:22: the last row does not match `state_hash`"],
     );
     let place = |row: usize, column: usize| {
         let before: usize = lines[row].split(',').take(column).map(|field| field.len() + 1).sum();
         format!("trace.csv:{}:{}: ", row + 1, before + 1)
     };
     for (value, part) in [
-        ("nan", "`nan` is no number that a trace has: column `bob.y`"),
-        ("NaN", "`NaN` stands for `bob.y`, which is finite in every row"),
-        ("-1.#IND", "`-1.#IND` is no number"),
-        ("#REF!", "`#REF!` is no number"),
-        ("", "`` is no number"),
-        (" 1.0", "` 1.0` is no number"),
-        ("1e400", "`1e400` is no number"),
+        ("nan", "column `bob.y`: `nan` is not a number as written in a trace"),
+        ("NaN", "column `bob.y`: `NaN` is not finite, as it must be in every row"),
+        ("-1.#IND", "`-1.#IND` is not a number"),
+        ("#REF!", "`#REF!` is not a number"),
+        ("", "`` is not a number"),
+        (" 1.0", "` 1.0` is not a number"),
+        ("1e400", "`1e400` is not a number"),
     ] {
         refused(with(6, 2, value).as_bytes(), &keys, &[&(place(6, 2) + part)]);
     }
@@ -110,14 +110,14 @@ fn what_is_damaged_is_refused_with_its_place() {
     refused(
         with(6, 0, "0.0501").as_bytes(),
         &keys,
-        &["trace.csv:7:1: the time 0.0501 s is no multiple of the step"],
+        &["trace.csv:7:1: the time 0.0501 s is not a multiple of the step"],
     );
     refused(with(6, 0, "0.051").as_bytes(), &keys, &["trace.csv:7: rows are missing"]);
     // Columns.
     refused(
         with(0, 3, "bob.q").as_bytes(),
         &keys,
-        &["trace.csv:1:18: column 4: `bob.q` stands where a trace has `bob.z`"],
+        &["trace.csv:1:18: column 4: found `bob.q`, expected `bob.z`"],
     );
     let columns = |to: usize| lines[0].split(',').take(to).collect::<Vec<_>>().join(",");
     let shorter = text.replacen(lines[0], &columns(20), 1);
@@ -133,19 +133,19 @@ fn what_is_damaged_is_refused_with_its_place() {
     refused(
         semicolons.as_bytes(),
         &keys,
-        &["trace.csv:1:1: column 1: ", "separated by commas, not by semicolons"],
+        &["trace.csv:1:1: column 1: ", "separated by commas, not semicolons"],
     );
     let wide: Vec<u8> =
         [0xfffe].into_iter().chain(text.encode_utf16()).flat_map(u16::to_be_bytes).collect();
-    refused(&wide, &keys, &["trace.csv:1:1: it is UTF-16"]);
+    refused(&wide, &keys, &["trace.csv:1:1: the file is UTF-16"]);
     refused(
         &[b"\xef\xbb\xbf", text.as_bytes()].concat(),
         &keys,
-        &["trace.csv:1:1: it begins with a byte order mark"],
+        &["trace.csv:1:1: the file begins with a byte order mark"],
     );
     let latin = [&text.as_bytes()[..10], b"\xe9", &text.as_bytes()[10..]].concat();
     refused(&latin, &keys, &["trace.csv:1:11: the byte 0xe9 is not UTF-8"]);
-    refused(&[0x1f, 0x8b, 8, 0], &keys, &["trace.csv:1:1: it is compressed (gzip)"]);
+    refused(&[0x1f, 0x8b, 8, 0], &keys, &["trace.csv:1:1: the file is compressed (gzip)"]);
     let endless = text.replacen(lines[7], &"1".repeat(2_000_000), 1);
     refused(endless.as_bytes(), &keys, &["trace.csv:8: the line is longer than 672 bytes"]);
     // Another version, another run, no summary of a run.
@@ -164,29 +164,25 @@ fn what_is_damaged_is_refused_with_its_place() {
     refused(
         text.as_bytes(),
         "{\n \"scene\": 1",
-        &["summary.json:2:11: is no summary of a run: invalid type"],
+        &["summary.json:2:11: is not a summary of a run: invalid type"],
     );
     refused(
         text.as_bytes(),
         "{}",
-        &["summary.json:1:2: is no summary of a run: missing field `scene`"],
+        &["summary.json:1:2: is not a summary of a run: missing field `scene`"],
     );
-    refused(
-        text.as_bytes(),
-        &keys.replace("\"f64\"", "\"f16\""),
-        &["the precision `f16` is not known"],
-    );
+    refused(text.as_bytes(), &keys.replace("\"f64\"", "\"f16\""), &["unknown precision `f16`"]);
     refused(
         text.as_bytes(),
         &keys.replace("\"step\": 0.001", "\"step\": 0.0"),
-        &["`step` is 0, which is no step"],
+        &["`step` is 0, which is not a valid step"],
     );
     // A file is missing.
     fs::write(&summary, &keys).unwrap();
     fs::remove_file(&trace).unwrap();
     let done = bench.compare(&a, &b, &[]);
     assert!(
-        done.exit == Exit::Refused && done.err.contains("there is no trace.csv beside it"),
+        done.exit == Exit::Refused && done.err.contains("trace.csv is missing next to it"),
         "{}",
         done.err
     );
@@ -195,15 +191,15 @@ fn what_is_damaged_is_refused_with_its_place() {
     for named in [&b, &format!("{b}/trace.csv")] {
         let done = bench.compare(&a, named, &[]);
         assert!(
-            done.exit == Exit::Refused && done.err.contains("there is no summary.json beside it"),
+            done.exit == Exit::Refused && done.err.contains("summary.json is missing next to it"),
             "{}",
             done.err
         );
     }
     for (named, part) in [
-        (bench.folder.path("nowhere"), "there is no such file or folder"),
-        (bench.folder.path("."), "holds no run: there is neither trace.csv nor summary.json"),
-        (PathBuf::from(&bench.scene), "holds neither a run nor a golden file"),
+        (bench.folder.path("nowhere"), "no such file or folder"),
+        (bench.folder.path("."), "contains no run: trace.csv and summary.json are missing"),
+        (PathBuf::from(&bench.scene), "contains neither a run nor a golden file"),
     ] {
         let done = bench.compare(&a, named.to_str().unwrap(), &[]);
         assert!(done.exit == Exit::Refused && done.err.contains(part), "{part}: {}", done.err);
@@ -234,7 +230,7 @@ fn a_summary_of_an_earlier_version_is_read() {
     fs::write(&summary, Value::Object(keys).to_string()).unwrap();
     let (json, exit) = bench.json(&a, &b, &[]);
     assert_eq!((exit, &json["verdict"]), (Exit::Done, &"equal".into()));
-    assert!(json["notes"][0].as_str().unwrap().contains("has no hash of its trace"), "{json}");
+    assert!(json["notes"][0].as_str().unwrap().contains("without a hash of its trace"), "{json}");
     let trace = PathBuf::from(&b).join("trace.csv");
     let text = fs::read_to_string(&trace).unwrap();
     let shorter: String = text.lines().take(15).map(|line| format!("{line}\n")).collect();

@@ -141,7 +141,7 @@ fn the_page_holds_both_runs_and_their_differences() {
     );
     let text =
         fs::read_to_string(bench.folder.path("reports/compare/scene-a-and-b/report.html")).unwrap();
-    assert!(text.contains("no animation of A: its scene, ") && text.contains("has changed since"));
+    assert!(text.contains("no animation for A: its scene, ") && text.contains("has changed since"));
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn a_report_of_other_runs_is_not_replaced_unasked() {
     let done = bench.compare(&c, &d, &[]);
     assert_eq!(done.exit, Exit::Refused);
     assert!(
-        done.err.contains("holds the results of another") && done.err.contains("--overwrite"),
+        done.err.contains("contains the results of another") && done.err.contains("--overwrite"),
         "{}",
         done.err
     );

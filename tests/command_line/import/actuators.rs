@@ -100,14 +100,14 @@ fn actuators_that_are_no_linear_law_are_refused() {
     for (actuator, why) in [
         ("<intvelocity joint='h' kp='3'/>", "integrates"),
         ("<damper joint='h' kv='3' ctrlrange='0 1' ctrllimited='false'/>", "rate"),
-        ("<muscle joint='h'/>", "no linear law"),
+        ("<muscle joint='h'/>", "is not linear"),
         ("<position joint='h' timeconst='0.1'/>", "filterexact"),
         ("<general joint='h' dyntype='integrator'/>", "integrator"),
         ("<general joint='h' gaintype='affine' gainprm='1 2'/>", "gain that is not constant"),
-        ("<general joint='h' biastype='affine' biasprm='0 2'/>", "pushes away"),
-        ("<general joint='h' biastype='affine' biasprm='0 0 2'/>", "faster"),
-        ("<motor site='t'/>", "no joint and no tendon"),
-        ("<position tendon='c' dampratio='1'/>", "state `kv`"),
+        ("<general joint='h' biastype='affine' biasprm='0 2'/>", "negative stiffness"),
+        ("<general joint='h' biastype='affine' biasprm='0 0 2'/>", "negative damping"),
+        ("<motor site='t'/>", "neither a joint nor a tendon"),
+        ("<position tendon='c' dampratio='1'/>", "give `kv`"),
     ] {
         let found = omitted(&format!("{tendon}<actuator>{actuator}</actuator>"));
         let [(kind, what)] = &found[..] else { panic!("{actuator}: {found:?}") };
@@ -157,7 +157,7 @@ fn tendons_between_two_sites_are_tsdas() {
         (
             format!("<spatial stiffness='1' damping='1' springlength='0'>{sites}</spatial>"),
             Kind::Tendon,
-            "no length",
+            "zero length",
         ),
         (format!("<spatial>{sites}<site site='u'/></spatial>"), Kind::Tendon, "two sites"),
         (
@@ -173,7 +173,7 @@ fn tendons_between_two_sites_are_tsdas() {
         (
             format!("<spatial stiffness='1' range='2 0' limited='true'>{sites}</spatial>"),
             Kind::Tendon,
-            "no extent",
+            "range is empty",
         ),
         (
             format!("<spatial stiffness='1' actuatorfrcrange='0 2'>{sites}</spatial>"),

@@ -47,7 +47,7 @@ fn joints_become_joints() {
     ];
     assert_eq!(joints, expected);
     assert_eq!(scene.joints[4].between, ["e", "world"]);
-    assert_eq!(made.notes, ["connect without a name is not active and left out"]);
+    assert_eq!(made.notes, ["connect without a name is inactive and left out"]);
     assert!(made.scene.contains("# line 2: <joint name=\"h\" type=\"hinge\">\n[[joint]]\n"));
     assert!(made.scene.contains("stiffness = 2000000.0\n"));
 }
@@ -171,7 +171,7 @@ fn ranges_and_friction_of_joints_are_theirs() {
         (loaded(&made), made)
     };
     let (scene, made) = turn("<joint name='h' axis='0 0 1' range='-10 30'/>");
-    assert!(made.omitted.is_empty() && made.scene.contains("# Limits, stated"), "{}", made.scene);
+    assert!(made.omitted.is_empty() && made.scene.contains("# Limits, from"), "{}", made.scene);
     let found = dbd_scene::interactions(&scene);
     assert_eq!((found.len(), found[0].law, found[0].name()), (1, "hinge-stop", Some("h.limits")));
     assert!(made.scene.contains("from = -0.17453292519943295"), "{}", made.scene);

@@ -32,31 +32,31 @@ fn what_is_wrong_is_named_with_its_place() {
         format!("<mujoco><worldbody><body name='a'>{inner}</body></worldbody></mujoco>")
     };
     for (text, line, message, help) in [
-        ("<sdf/>".into(), 1, "begins with <sdf>", "URDF"),
-        (with("", "", "<actuators/>"), 10, "<actuators> is no section", "<actuator>"),
-        (with("<geom size='x'/>", "", ""), 6, "`size` holds \"x\"", "numbers"),
-        (with("<geom size='nan'/>", "", ""), 6, "`size` holds \"nan\"", "numbers"),
+        ("<sdf/>".into(), 1, "root element is <sdf>", "URDF"),
+        (with("", "", "<actuators/>"), 10, "unknown section <actuators>", "<actuator>"),
+        (with("<geom size='x'/>", "", ""), 6, "`size` contains \"x\"", "numbers"),
+        (with("<geom size='nan'/>", "", ""), 6, "`size` contains \"nan\"", "numbers"),
         (with("<geom type='bx'/>", "", ""), 6, "`type` is \"bx\"", "\"box\""),
         (with("<geom type='box' size='1 1'/>", "", ""), 6, "`size` of a box is", "3 numbers > 0"),
-        (with("<geom class='bar'/>", "", ""), 6, "there is no class \"bar\"", "<default>"),
-        (with("", "<body name='a'/>", ""), 8, "a body `a` is there already, line 3", "its own"),
-        (with("<body><joint name='h'/></body>", "", ""), 6, "is there already, line 4", "its own"),
+        (with("<geom class='bar'/>", "", ""), 6, "unknown class \"bar\"", "<default>"),
+        (with("", "<body name='a'/>", ""), 8, "`a` is already defined in line 3", "unique"),
+        (with("<body><joint name='h'/></body>", "", ""), 6, "already used in line 4", "unique"),
         (with("<body name='b'><freejoint/></body>", "", ""), 6, "free joint", "world"),
         (with("<body quat='0 0 0 0'/>", "", ""), 6, "`quat` is 0", "length"),
-        (with("<body quat='1 0 0 0' euler='0 0 0'/>", "", ""), 6, "two ways", "one of"),
-        (with("", "<joint/>", ""), 8, "stands in the world", "<body>"),
+        (with("<body quat='1 0 0 0' euler='0 0 0'/>", "", ""), 6, "given twice", "one of"),
+        (with("", "<joint/>", ""), 8, "belong to the world", "<body>"),
         (with("", "", "<include file='none.xml'/>"), 10, "cannot read none.xml", "folder"),
-        (with("", "", "<include/>"), 10, "includes no file", "file"),
+        (with("", "", "<include/>"), 10, "has no `file`", "file"),
         (with("", "", "<compiler coordinate='global'/>"), 10, "global", "local"),
         (with("", "", "<compiler eulerseq='xyw'/>"), 10, "`eulerseq` is \"xyw\"", "three of"),
         (
             with("", "", "<equality><connect body1='b' anchor='0 0 0'/></equality>"),
             10,
-            "no body `b`",
+            "unknown body `b`",
             "`a`",
         ),
         (with("", "", "<equality><connect body1='a'/></equality>"), 10, "no `anchor`", "site1"),
-        (with("", "", "<actuator><motor joint='g'/></actuator>"), 10, "no joint `g`", "`h`"),
+        (with("", "", "<actuator><motor joint='g'/></actuator>"), 10, "unknown joint `g`", "`h`"),
         (body(""), 1, "nothing moves", "<joint>"),
         (body("<joint/>"), 1, "moves and has no mass", "<inertial>"),
         (
@@ -79,7 +79,7 @@ fn what_is_wrong_is_named_with_its_place() {
             "`fullinertia`",
             "one",
         ),
-        ("<mujoco><default><default/></default></mujoco>".into(), 1, "has no class", "name"),
+        ("<mujoco><default><default/></default></mujoco>".into(), 1, "has no `class`", "name"),
         ("<mujoco/>".into(), 1, "has no bodies", "<worldbody>"),
     ] {
         let (found, _, said, remedy) = refusal(&text);
@@ -116,38 +116,38 @@ fn what_has_no_counterpart_is_listed_by_line_with_its_size() {
         (
             6,
             Kind::Joints,
-            "body `a` has hinge `h`, slide `second`, slide `third`: no joints and bodies of a scene say that exactly; \
-             `--carriers 0.01` says it up to about 1 % of its mass; left out, it has the first alone",
+            "body `a` has hinge `h`, slide `second`, slide `third`: a scene has no exact equivalent; \
+             `--carriers 0.01` is accurate to about 1 % of its mass; if ignored, only the first joint is kept",
         ),
         (8, Kind::Unknown, "`mass` of body `tip`"),
         (
             8,
             Kind::Mesh,
-            "geom, mesh: its mass in body `tip`: mesh `m`, there is no mesh `m`; an <inertial>; MuJoCo writes those of \
+            "geom, mesh: its mass in body `tip`: mesh `m`, unknown mesh `m`; give an <inertial>; MuJoCo writes those of \
              meshes: <compiler saveinertial=\"true\"/>, then `mj_saveLastXML`",
         ),
         (8, Kind::Contact, "geom, mesh: may touch 1 other"),
         (9, Kind::Spring, "hinge `k`: stiffness [1.0, 0.5], which is not linear"),
-        (9, Kind::Fluid, "geom, sphere, radius 0.1 m: resistance of a medium"),
+        (9, Kind::Fluid, "geom, sphere, radius 0.1 m: drag of a medium"),
         (11, Kind::Contact, "geom `floor`, plane: may touch 1 other"),
-        (12, Kind::Mocap, "body `hand`, which is moved from outside, stands still"),
-        (13, Kind::Generated, "<replicate>, which makes parts that are not in the file"),
+        (12, Kind::Mocap, "mocap body `hand` stays fixed"),
+        (13, Kind::Generated, "<replicate>, which generates parts that are not in the file"),
         (15, Kind::Fluid, "viscosity 0.002 Pa·s of the medium"),
         (
             16,
             Kind::Tendon,
-            "spatial `cord`: 1 points or joints stiffness 7: a scene has springs between two sites, none over others",
+            "spatial `cord`: 1 points or joints stiffness 7: only springs between two sites are supported",
         ),
         (
             17,
             Kind::Equality,
-            "joint `mimic`: joint1 h, joint2 k, polycoef 0 2 1 0 0: a scene couples joints linearly",
+            "joint `mimic`: joint1 h, joint2 k, polycoef 0 2 1 0 0: only linear couplings are supported",
         ),
         (18, Kind::Armature, "motor `m`: armature 0.1 kg·m²"),
         (
             18,
             Kind::Actuator,
-            "intvelocity `p`, joint h, kp 9: integrates its control: a caller that sums it up drives a <position>",
+            "intvelocity `p`, joint h, kp 9: integrates its control: integrate in the caller and drive a <position>",
         ),
     ];
     assert_eq!(found, expected);
@@ -185,7 +185,7 @@ fn files_that_are_included_keep_their_places() {
     else {
         panic!();
     };
-    assert!(refusal.message.contains("round.xml a second time"), "{refusal}");
+    assert!(refusal.message.contains("round.xml is included a second time"), "{refusal}");
     let text = with("<body><include file='limit.xml'/><geom size='1'/></body>", "", "");
     let Err(ImportError::Omitted { omissions, .. }) = made(&text) else { panic!() };
     assert!(omissions[0].file.ends_with("limit.xml"), "{omissions:?}");
@@ -231,7 +231,7 @@ fn the_command_refuses_lists_and_writes() {
     fs::write(&toml, "name = \"mine\"\n").unwrap();
     let (exit, _, err) = call(&[&xml, "--ignore", "all", "--out", &toml]);
     assert_eq!(exit, Exit::Refused);
-    assert!(err.contains("holds what host-sim has not imported"), "{err}");
+    assert!(err.contains("was not written by host-sim import"), "{err}");
     for wrong in [
         &["--ignore", "limits"][..],
         &["--stiffness", "0"],
@@ -244,7 +244,7 @@ fn the_command_refuses_lists_and_writes() {
     assert!(exit == Exit::Refused && err.contains("cannot read"), "{err}");
     // A size at which no joint can be made: what is written can be run, or is not written.
     let (exit, _, err) = call(&[&xml, "--ignore", "all", "--span", "1e-300"]);
-    assert!(exit == Exit::Refused && err.contains("becomes is refused"), "{err}");
+    assert!(exit == Exit::Refused && err.contains("invalid scene from"), "{err}");
 }
 
 /// A triangle of two links whose sites do not meet by `gap` [m] wherever the links are turned.
@@ -275,13 +275,13 @@ fn loops_close_within_a_tolerance() {
     dbd_scene::Scene::parse(&written(), "a").unwrap();
     let (exit, _, err) = call(&[&xml, "--out", &toml, "--tolerance", "1e-9"]);
     assert_eq!(exit, Exit::Refused);
-    assert!(err.contains("stays open by") && err.contains("--tolerance"), "{err}");
+    assert!(err.contains("remains open by") && err.contains("--tolerance"), "{err}");
     assert!(written().contains("tolerance = 1e-9") && written().contains("[[joint]]"));
     assert!(dbd_scene::Scene::parse(&written(), "a").is_err());
     fs::remove_file(&toml).unwrap();
     fs::write(&xml, triangle(0.05)).unwrap();
     let (exit, _, err) = call(&[&xml, "--out", &toml]);
-    assert!(exit == Exit::Refused && err.contains("stays open by"), "{err}");
+    assert!(exit == Exit::Refused && err.contains("remains open by"), "{err}");
     assert!(written().contains("name = \"loop\""));
     // As the message says.
     let given = err.split("--tolerance ").nth(1).unwrap().split('`').next().unwrap();
@@ -336,5 +336,5 @@ fn includes_stay_in_the_folder_and_show_no_other_text() {
 fn attributes_of_an_element_are_limited() {
     let many: String = (0..2000).map(|number| format!(" a{number}=''")).collect();
     let (line, _, message, _) = refusal(&format!("<mujoco{many}/>"));
-    assert_eq!((line, message.as_str()), (1, "has more than 1000 attributes"));
+    assert_eq!((line, message.as_str()), (1, "the element has more than 1000 attributes"));
 }

@@ -26,7 +26,7 @@ fn an_arm_moves_as_in_mujoco() {
     assert_eq!((motor.name.as_str(), motor.range), ("shoulder_motor", [-30.0, 30.0]));
     assert!(made.scene.contains("colour = "), "{}", made.scene);
     assert!(made.scene.contains("# line 54: <joint name=\"shoulder\""), "{}", made.scene);
-    assert!(!made.scene.contains("own step"), "{}", made.scene);
+    assert!(!made.scene.contains("timestep"), "{}", made.scene);
 }
 
 const INERTIAL: &str = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
@@ -65,15 +65,15 @@ fn links_and_joints_are_taken_as_mujoco_takes_them() {
 #[test]
 fn what_is_no_tree_of_links_is_refused_where_it_stands() {
     for (text, line, says, help) in [
-        (robot(&joint("hinge", "")), 4, "no type of joint", "revolute"),
+        (robot(&joint("hinge", "")), 4, "unknown joint type", "revolute"),
         (robot("<joint name='j' type='fixed'><child link='b'/></joint>"), 4, "no <parent>", "link"),
-        (robot(&joint("fixed", "").replace("'b'", "'bb'")), 4, "names no link", "did you mean `b`"),
-        (robot("<link name='a'/>"), 4, "there twice", "a name of its own"),
+        (robot(&joint("fixed", "").replace("'b'", "'bb'")), 4, "unknown link", "did you mean `b`"),
+        (robot("<link name='a'/>"), 4, "defined twice", "unique name"),
         (robot("<link/>"), 4, "no `name`", "link name"),
         (
             robot(&format!("{}\n{}", joint("fixed", ""), joint("revolute", ""))),
             5,
-            "hangs on two joints",
+            "child of two joints",
             "a tree",
         ),
         (
@@ -82,7 +82,7 @@ fn what_is_no_tree_of_links_is_refused_where_it_stands() {
                 joint("fixed", "")
             )),
             2,
-            "in a circle",
+            "form a cycle",
             "a tree",
         ),
         (robot(&joint("revolute", "<limit lower='1' upper='0'/>")), 4, "is above", "below"),
@@ -91,7 +91,7 @@ fn what_is_no_tree_of_links_is_refused_where_it_stands() {
         (
             robot("<link name='c'><visual><geometry><cone/></geometry></visual></link>"),
             4,
-            "no geometry",
+            "unknown geometry",
             "box",
         ),
         (
@@ -101,7 +101,7 @@ fn what_is_no_tree_of_links_is_refused_where_it_stands() {
             "ixx",
         ),
         ("<robot/>".into(), 1, "no links", "xacro"),
-        (robot("<xacro:property xmlns:xacro='x' name='p'/>"), 4, "is a macro's", "xacro"),
+        (robot("<xacro:property xmlns:xacro='x' name='p'/>"), 4, "belongs to a macro", "xacro"),
     ] {
         let made = import_text(&text, "r.urdf", Path::new(""), &Options::default());
         let Err(ImportError::Refused(refusal)) = made else { panic!("{text}: {made:?}") };
@@ -115,7 +115,7 @@ fn what_is_no_tree_of_links_is_refused_where_it_stands() {
         (
             "<transmission name='t'><joint name='none'/></transmission>",
             Kind::Actuator,
-            "no joint that moves",
+            "not a movable joint",
         ),
         (
             "<link name='c'><collision><geometry><sphere radius='1'/></geometry></collision></link>",

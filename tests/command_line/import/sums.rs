@@ -120,15 +120,15 @@ fn what_is_no_linear_sum_is_listed() {
     let joints = "<joint joint='h' coef='1'/><joint joint='k' coef='1'/>";
     let equality = |given: &str| format!("<equality><joint {given}/></equality>");
     for (more, kind, why) in [
-        (equality("joint1='h'"), Kind::Equality, "a joint alone"),
-        (equality("joint1='h' joint2='k' polycoef='0 0 0 0 0'"), Kind::Equality, "a joint alone"),
-        (equality("joint1='h' joint2='k' polycoef='0 1 0.5 0 0'"), Kind::Equality, "linearly"),
-        (equality("joint1='h' joint2='b'"), Kind::Equality, "no hinges and slides"),
+        (equality("joint1='h'"), Kind::Equality, "one joint"),
+        (equality("joint1='h' joint2='k' polycoef='0 0 0 0 0'"), Kind::Equality, "one joint"),
+        (equality("joint1='h' joint2='k' polycoef='0 1 0.5 0 0'"), Kind::Equality, "linear"),
+        (equality("joint1='h' joint2='b'"), Kind::Equality, "not hinges or slides"),
         (equality("joint1='h' joint2='h'"), Kind::Equality, "with itself"),
         (
             format!("<tendon><fixed damping='1'>{joints}</fixed></tendon>"),
             Kind::Tendon,
-            "takes a spring",
+            "requires a spring",
         ),
         (
             format!("<tendon><fixed stiffness='1'>{joints}{joints}</fixed></tendon>"),

@@ -77,10 +77,10 @@ const CASES: &[Case] = &[
     case("{ first = [1.22, 0, 0], second = [1.2, 0, 0] }", "«{ first = [1.22, 0, 0] }", "`at` of joint `wrist` has no `second`", "3 finite numbers in m, world"),
     case("{ first = [1.22, 0, 0], second = [1.2, 0, 0] }", "{ first = [1.22, 0, 0], second = [1.2, 0, 0], «third = 0 }", "`at` of joint `wrist` has no key `third`", "`first`, `second`"),
     case("second = [1.2, 0, 0] }", "second = «[1.2, 0] }", "`second` of `at` of joint `wrist` has 2 entries", "3 finite numbers in m, world"),
-    case("{ first = [1.22, 0, 0], second = [1.2, 0, 0] }", "«3", "`at` of joint `wrist` is an integer", "or { first = …, second = … } with one of each body"),
+    case("{ first = [1.22, 0, 0], second = [1.2, 0, 0] }", "«3", "`at` of joint `wrist` is an integer", "or { first = …, second = … } with one for each body"),
     case("second = [-0.005, -0.0122, 1]", "second = «[0, 0, 0]", "`second` of `axis` of joint `pin` has no direction", "not all 0"),
     case("{ first = [0, 1, 0], second = [0, 2, 0] }", "«{ first = [1, 0, 0], second = [0, 2, 0] }", "`reference` of joint `guide` is parallel to the axis", "normal to it"),
-    case("[assemble]\nfixed = [\"crank\"]\nlength = 0.4\ntolerance = 1e-10\niterations = 50\n", "", "joint `pin` is open by 0.0132 rad at the given poses", "[assemble] moves the bodies").at("[[joint]] # pin"),
+    case("[assemble]\nfixed = [\"crank\"]\nlength = 0.4\ntolerance = 1e-10\niterations = 50\n", "", "joint `pin` is open by 0.0132 rad at the given poses", "add a table [assemble]").at("[[joint]] # pin"),
 
     // The table.
     case("[assemble]\nfixed = [\"crank\"]\nlength = 0.4\ntolerance = 1e-10\niterations = 50\n", "assemble = «true\n", "`assemble` of the scene is a boolean", "a table, opened by [assemble]"),
@@ -94,16 +94,16 @@ const CASES: &[Case] = &[
     case("[\"crank\"]\nlength", "[«\"world\"]\nlength", "`fixed`[0] of `assemble` of the scene is the world", "the name of a body"),
 
     // Loops that stay open.
-    case("first = [1.22, 0, 0]", "first = [0.2, 0.5, 0]", "joint `wrist` stays open by ", "the bodies between do not reach: other lengths, fewer bodies that are `fixed`").at("[[joint]] # wrist"),
+    case("first = [1.22, 0, 0]", "first = [0.2, 0.5, 0]", "joint `wrist` stays open by ", "use other lengths, fewer `fixed` bodies").at("[[joint]] # wrist"),
     case("[\"crank\"]\nlength", "[\"crank\", \"rod\"]\nlength", "joint `pin` stays open by 0.0132 rad", "neither `crank` nor `rod` may be moved").at("[[joint]] # pin"),
     // Rates.
     case("iterations = 50", "rates = «3", "`rates` of `assemble` of the scene is an integer", "{ JOINT = rate }"),
-    case("iterations = 50", "rates = { pni = «3 }", "`pni` of `rates` of `assemble` of the scene is no joint: \"pni\"", "did you mean `pin`?"),
+    case("iterations = 50", "rates = { pni = «3 }", "`pni` of `rates` of `assemble` of the scene is not a joint: \"pni\"", "did you mean `pin`?"),
     case("iterations = 50", "rates = { pin = «\"3 m/s\" }", "`pin` of `rates` of `assemble` of the scene is \"3 m/s\"", "a finite number in rad/s"),
     case("iterations = 50", "rates = { guide = «\"3 rad/s\" }", "`guide` of `rates` of `assemble` of the scene is \"3 rad/s\"", "a finite number in m/s"),
     case("iterations = 50", "rates = { wrist = «3 }", "`wrist` of `rates` of `assemble` of the scene is the rate of a spherical joint", "a body's `velocity` and `angular_velocity`"),
-    case("iterations = 50", "rates = { base = «3, guide = 1 }", "`base` of `rates` of `assemble` of the scene does not go with the others: ", "as many as there are freedoms"),
-    case("[1.2, 0, 0]\n\n[[joint]] # base", "[1.2, 0, 0]\nvelocity = «[0, 1, 0]\n\n[[joint]] # base", "`velocity` of body `slider` is a motion that the joints do not leave", "the loops of joints hold that"),
+    case("iterations = 50", "rates = { base = «3, guide = 1 }", "`base` of `rates` of `assemble` of the scene is inconsistent with the other velocities: ", "as there are degrees of freedom"),
+    case("[1.2, 0, 0]\n\n[[joint]] # base", "[1.2, 0, 0]\nvelocity = «[0, 1, 0]\n\n[[joint]] # base", "`velocity` of body `slider` is a motion that the joints prevent", "loops of joints prevent this motion"),
 
     case("iterations = 50", "iterations = 1", "joint `wrist` stays open by ", "more `iterations`").at("[[joint]] # wrist"),
 ];

@@ -81,7 +81,7 @@ const CASES: &[Case] = &[
     case("{ mass = 0.2, inertia = [2e-4, 3e-4, 4e-4] }", "«{ mass = 0.2 }", "`spider` of joint `knee` has no `inertia`", "> 0 in kg·m²"),
     case("mass = 0.2,", "mass = «0,", "`mass` of `spider` of joint `knee` is 0", "> 0 in kg"),
     case("[2e-4, 3e-4, 4e-4]", "[2e-4, «-3e-4, 4e-4]", "`inertia`[1] of `spider` of joint `knee` is -3e-4", "> 0 in kg·m²"),
-    case("[2e-4, 3e-4, 4e-4]", "«[2e-4, 3e-4, 6e-4]", "`inertia` of `spider` of joint `knee` breaks the triangle inequality", "Iz ≤ Ix + Iy"),
+    case("[2e-4, 3e-4, 4e-4]", "«[2e-4, 3e-4, 6e-4]", "`inertia` of `spider` of joint `knee` violates the triangle inequality", "Iz ≤ Ix + Iy"),
     case("mass = 0.2,", "mass = 0.2, «weight = 2,", "`spider` of joint `knee` has no key `weight`", "`mass`, `inertia`"),
     case("spider = {", "spider = «3 # {", "`spider` of joint `knee` is an integer", "{ mass = kg, inertia = [Ix, Iy, Iz] }"),
     case("[[1, 0, 0], [0, 0, 3]]", "«[[1, 0, 0], [2e-6, 0, 1]]", "`axes` of joint `knee` are 89.999885 degrees apart", "orthogonal within 1e-6"),
@@ -90,7 +90,7 @@ const CASES: &[Case] = &[
     case("[[1, 0, 0], [0, 0, 3]]", "«[[1, 0, 0]]", "`axes` of joint `knee` has 1 entry", "two orthogonal directions"),
     case("ring = 0.05", "reference = «[0, 0, 1]", "`reference` of joint `knee` is parallel to the axis", "normal to it"),
     case("ring = 0.05", "«axis = [0, 0, 1]", "joint `knee` has no key `axis`", "did you mean `axes`?"),
-    case("[[body]] # second\nname = \"hand\"\n", "[[body]]\nname = \"knee.spider\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0]\n[[body]] # second\nname = \"hand\"\n", "`spider` of joint `knee` makes a body `knee.spider`, which the scene has already", "rename the joint or the body").at("spider = {"),
+    case("[[body]] # second\nname = \"hand\"\n", "[[body]]\nname = \"knee.spider\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [0, 0, 0]\n[[body]] # second\nname = \"hand\"\n", "`spider` of joint `knee` creates a body `knee.spider`, which already exists", "rename the joint or the body").at("spider = {"),
     case("[\"world\", \"hand\"]\nat", "[«\"link.spider\", \"hand\"]\nat", "names no body: \"link.spider\"", "\"knee.spider\""),
 
     // Joints on lines and the fixed joint.
@@ -112,14 +112,14 @@ const CASES: &[Case] = &[
     case("gauge = 0.04", "gauge = 0.04\n«ring = 0.1", "joint `guide` has no key `ring`", "`gauge`"),
     case("arm = 0.035", "arm = 0.035\n«spider = 1", "joint `weld` has no key `spider`", "`arm`"),
     case("axis = [4, 0, 0]", "axis = [4, 0, 0]\nreference = «[1, 0, 0]", "`reference` of joint `piston` is parallel to the axis", "normal to it"),
-    case("[[joint]] # fourth\nname = \"piston\"\ntype = \"cylindrical\"\nbetween = [\"arm\", \"hand\"]\nat = [1.2, 0, 0]", "«[[joint]]\nname = \"piston\"\ntype = \"cylindrical\"\nbetween = [\"arm\", \"hand\"]\nat = [0, 0, 1e15]", "joint `piston` does not assemble: its points are", "nearer to the origin"),
+    case("[[joint]] # fourth\nname = \"piston\"\ntype = \"cylindrical\"\nbetween = [\"arm\", \"hand\"]\nat = [1.2, 0, 0]", "«[[joint]]\nname = \"piston\"\ntype = \"cylindrical\"\nbetween = [\"arm\", \"hand\"]\nat = [0, 0, 1e15]", "joint `piston` cannot be assembled: its points are", "nearer to the origin"),
 
     // Realisations.
-    case("offset = 0.011", "offset = 0.011\nrealisation = «\"bushing\"", "`realisation` of joint `piston` is of a cylindrical joint, which has but one", "leave it out"),
-    case("gauge = 0.04", "gauge = 0.04\nrealisation = «\"tsda\"", "`realisation` of joint `guide` is of a translational joint, which has but one", "leave it out"),
+    case("offset = 0.011", "offset = 0.011\nrealisation = «\"bushing\"", "`realisation` of joint `piston` cannot be set: a cylindrical joint has a single realisation", "remove it"),
+    case("gauge = 0.04", "gauge = 0.04\nrealisation = «\"tsda\"", "`realisation` of joint `guide` cannot be set: a translational joint has a single realisation", "remove it"),
     case("arm = 0.035", "arm = 0.035\nrealisation = «\"rubber\"", "`realisation` of joint `weld` is \"rubber\"", "\"bushing\""),
     case("duration = 1\n", "duration = 1\nrealisation = «\"rigid\"\n", "`realisation` of the scene is \"rigid\"", "\"tsda\""),
-    case("span = 0.06\nring = 0.05", "span = 0.06\nrealisation = \"bushing\"\nring = «0.05", "`ring` of joint `knee` makes a joint that no bushing between its two bodies is as stiff as", "without `ring`"),
+    case("span = 0.06\nring = 0.05", "span = 0.06\nrealisation = \"bushing\"\nring = «0.05", "`ring` of joint `knee` leads to a stiffness that a bushing cannot represent", "remove `ring`"),
 
     // Points on lines.
     case("line_direction", "«line_axis", "point_on_line 1 has no key `line_axis`", "`line_direction`"),

@@ -1,4 +1,4 @@
-//! What a linked image holds: its symbols, its functions, which function calls which.
+//! The contents of a linked image: symbols, functions and calls.
 //!
 //! `ELF => symbols, functions by address`, read from GNU binutils' listings.
 
@@ -19,7 +19,7 @@ pub struct Image {
 #[derive(Debug, PartialEq)]
 struct Symbol {
     address: u64,
-    /// The first address after it, where its size is known.
+    /// The first address after it, if its size is known.
     end: Option<u64>,
     /// Demangled.
     name: String,
@@ -34,8 +34,8 @@ pub struct Function {
     pub size: u64,
     /// The distinct mnemonics of its instructions.
     pub mnemonics: BTreeSet<String>,
-    /// Its branches whose destination is in a register or in memory; returns and the jumps of a
-    /// table within it are none.
+    /// Its branches whose destination is in a register or in memory, without returns and the jumps of a
+    /// table within it.
     pub indirect: BTreeSet<String>,
     /// Where its branches lead, outside of itself.
     pub(super) calls: BTreeSet<u64>,
@@ -56,7 +56,7 @@ impl Image {
         let symbols = symbols(&names);
         let image = Self { functions: functions(&listing, &symbols), symbols };
         if image.symbols.is_empty() || image.functions.is_empty() {
-            bail!("{} has no symbols or no code", elf.display());
+            bail!("{} contains no symbols or no code", elf.display());
         }
         Ok(image)
     }
@@ -69,7 +69,7 @@ impl Image {
     /// Where the symbol of this name lies.
     ///
     /// # Errors
-    /// Where there is none.
+    /// If it is missing.
     pub fn address(&self, name: &str) -> Result<u64> {
         let symbol = self.symbols.iter().find(|symbol| symbol.name == name);
         Ok(symbol.with_context(|| format!("the image has no `{name}`"))?.address)
@@ -176,7 +176,7 @@ fn branch(mnemonic: &str, operands: &str) -> Option<u64> {
 
 /// A branch without a fixed destination that is no return, as it is written.
 fn indirect(mnemonic: &str, operands: &str) -> Option<String> {
-    // Behind a semicolon stands what the disassembler remarks.
+    // The disassembler's remarks follow a semicolon.
     let operands = operands.split(';').next().unwrap_or_default().trim();
     let exchanges = mnemonic.starts_with("bx") || mnemonic.starts_with("blx");
     let to_register = exchanges && operands != "lr" && !operands.contains('<');

@@ -1,7 +1,7 @@
-//! `cargo xtask audit`: what the linked steps and calls of a running model must not reach.
+//! `cargo xtask audit`: forbidden functions in the linked steps and calls of a running model.
 //!
 //! `roots, linked alone => functions that each reaches => findings`. One image holds the clean roots
-//! and those with a planted fault, which each check must find: a check that cannot fail says
+//! and those with a planted fault, which each check must find: a check that cannot fail proves
 //! nothing.
 
 mod checks;
@@ -46,7 +46,7 @@ pub fn add_steps(toolchain: &Toolchain, steps: &mut Steps) {
     }
 }
 
-/// What each root reaches that it must not, by symbol.
+/// The forbidden functions that each root reaches, by symbol.
 type Findings = BTreeMap<String, Vec<String>>;
 
 fn clean(image: &Image) -> Result<()> {
@@ -89,7 +89,7 @@ fn find_planted(image: &Image, check: &Check) -> Result<()> {
     let reach = image.reach(&root)?;
     let findings: Vec<String> = reach.into_iter().flat_map(check.findings).collect();
     let Some(finding) = findings.first() else {
-        bail!("{} was planted and not found", check.name);
+        bail!("the planted fault {} was not found", check.name);
     };
     println!("{root} reaches {finding}");
     Ok(())

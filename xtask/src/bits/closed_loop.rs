@@ -83,7 +83,7 @@ fn same(host: &[String], target: &[String]) -> Result<()> {
     };
     let [host, target] = [host, target].map(done);
     if host.is_empty() {
-        bail!("the host did nothing");
+        bail!("the host printed no ticks");
     }
     for (line, other) in host.iter().zip(&target) {
         if line != other {
@@ -91,7 +91,7 @@ fn same(host: &[String], target: &[String]) -> Result<()> {
         }
     }
     if host.len() != target.len() {
-        bail!("the host tells {} lines, the target {}", host.len(), target.len());
+        bail!("the host printed {} lines, the target {}", host.len(), target.len());
     }
     Ok(())
 }
@@ -108,7 +108,7 @@ impl Pace {
     /// Reads `pace NAME overruns N busy MEAN us of PERIOD, MOST in tick TICK`.
     fn of(lines: &[String]) -> Result<Self> {
         let line = lines.iter().find(|line| line.starts_with("pace "));
-        let line = line.context("the target tells no pace")?;
+        let line = line.context("the target printed no pace")?;
         let words: Vec<&str> = line.split_whitespace().collect();
         let read = || {
             let ["pace", _, "overruns", overruns, "busy", busy, "us", "of", period, ..] = words[..]

@@ -70,7 +70,7 @@ pub fn plant(built: &[Program]) -> Result<PathBuf> {
 fn named(built: &[Program], name: &str) -> Result<PathBuf> {
     let name = format!("qemu::{name}");
     let program = built.iter().find(|program| program.name == name && !program.tests);
-    Ok(program.with_context(|| format!("{name} was not built"))?.path.clone())
+    Ok(program.with_context(|| format!("cargo did not build {name}"))?.path.clone())
 }
 
 /// What a program prints.

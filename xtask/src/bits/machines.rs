@@ -75,7 +75,7 @@ const MACHINES: [Machine; 2] = [
 pub fn run(names: &[String]) -> Result<()> {
     let known = names_of_builds();
     if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
-        bail!("there is no build `{name}`; there are: {}", known.join(", "));
+        bail!("unknown build `{name}`; known builds: {}", known.join(", "));
     }
     let wanted = |name: &str| names.is_empty() || names.iter().any(|other| other == name);
     let (mut steps, mut rows) = (Steps::default(), Vec::new());

@@ -1,4 +1,4 @@
-//! A run that the host begins and the target ends, and the other way round.
+//! Runs that start on the host and end on the target, and vice versa.
 //!
 //! `program relay: whole on the host, halves on both => equal hashes`. The snapshots travel as
 //! files in `out`, written by one machine and read by the other.
@@ -14,14 +14,14 @@ const WHOLE: &str = "0";
 const BEGIN: &str = "1";
 const END: &str = "2";
 
-/// Takes all runs apart in both ways and compares.
+/// Splits all runs in both directions and compares.
 ///
 /// # Errors
 /// Where a hash differs or a program fails.
 pub fn compare(toolchain: &Toolchain, host: &Host) -> Result<()> {
     let on_host = |arguments: &[&str]| host.checked(arguments);
     let on_target = |arguments: &[&str]| {
-        let [program, parts @ ..] = arguments else { bail!("no program is named") };
+        let [program, parts @ ..] = arguments else { bail!("no program given") };
         let parts: Vec<String> = parts.iter().map(|part| (*part).to_owned()).collect();
         firmware::execute(toolchain, program, false, &parts)
     };
@@ -42,7 +42,7 @@ pub fn compare_machines(
     std::fs::create_dir_all(&folder).context("cannot make the folder out")?;
     let whole = on_host(WHOLE)?;
     if whole.is_empty() {
-        bail!("the host ran nothing");
+        bail!("the host printed no runs");
     }
     forget()?;
     on_host(BEGIN)?;
@@ -54,8 +54,8 @@ pub fn compare_machines(
     for (first, then, halves) in [(host, target, &host_first), (target, host, &target_first)] {
         if halves != &whole {
             let missing = whole.iter().find(|line| !halves.contains(line));
-            let line = missing.map_or("a line too many", String::as_str);
-            bail!("{first}, then {then}: not the same as in one run: {line}");
+            let line = missing.map_or("an extra line", String::as_str);
+            bail!("{first}, then {then}: differs from a single run: {line}");
         }
     }
     println!("\nequal in one run on the {host} and in halves on {host} and {target}, both ways:");

@@ -1,10 +1,10 @@
-//! Installing Debian packages: done where this process may, else said.
+//! Installing Debian packages: done if permitted, else reported.
 
 use anyhow::{Context as _, Result, bail};
 
 use crate::command::{find, output, program};
 
-/// Installs packages, or says what to install.
+/// Installs packages, or names the packages to install.
 ///
 /// # Errors
 /// Where this is not Debian, not root, or the installation failed; `purpose` and `otherwise`,

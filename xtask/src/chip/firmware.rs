@@ -61,7 +61,7 @@ fn image_of(name: &str) -> Result<&'static str> {
     match PROGRAMS.iter().find(|(program, _)| *program == name) {
         Some((_, image)) => Ok(image),
         None => bail!(
-            "there is no program `{name}`; there are: {}",
+            "unknown program `{name}`; known programs: {}",
             PROGRAMS.map(|(program, _)| program).join(", ")
         ),
     }

@@ -80,7 +80,7 @@ fn on_the_pc(toolchain: &Toolchain, project: &Path) -> Result<()> {
     // The test says on its standard output what it found.
     let found = test().output();
     fs::write(&file, golden)?;
-    let found = found.context("cargo does not run")?;
+    let found = found.context("cannot run cargo")?;
     let said = String::from_utf8_lossy(&found.stdout);
     if found.status.success() || !said.contains(DIFFERENCE) {
         bail!("the golden test does not name a planted difference: {said}");

@@ -54,7 +54,7 @@ fn listen(lines: &Receiver<String>, limit: Duration) -> Result<Vec<String>> {
                 // A panic's message goes on in the next line.
                 let rest = std::iter::from_fn(|| lines.recv_timeout(GRACE).ok());
                 let words: Vec<String> = std::iter::once(line).chain(rest).collect();
-                bail!("the program gave up: {}", words.join(" "));
+                bail!("the program failed: {}", words.join(" "));
             }
             Ok(line) => heard.push(line),
             Err(RecvTimeoutError::Timeout) => bail!(
@@ -62,7 +62,7 @@ fn listen(lines: &Receiver<String>, limit: Duration) -> Result<Vec<String>> {
                 limit.as_secs(),
                 heard.last().map_or("none", String::as_str)
             ),
-            Err(RecvTimeoutError::Disconnected) => bail!("the program did not say `{END}`"),
+            Err(RecvTimeoutError::Disconnected) => bail!("the program did not print `{END}`"),
         }
     }
 }

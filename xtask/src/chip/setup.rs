@@ -32,18 +32,18 @@ pub fn run() -> Result<()> {
 /// Finds or installs the browser that shows reports in the tests, and prints its version.
 ///
 /// # Errors
-/// Where there is none and it cannot be installed.
+/// If it is missing and cannot be installed.
 pub fn browser() -> Result<()> {
     // What the tests look for, in their order.
     let other = BROWSERS.into_iter().find(|name| find(name).is_some());
-    let otherwise = "install Chromium or Chrome, so that it is found by its name";
+    let otherwise = "install Chromium or Chrome on PATH";
     tool("browser", other.unwrap_or(BROWSERS[0]), BROWSERS[0], otherwise)
 }
 
 /// Finds or installs what counts the host's instructions, and prints its version.
 ///
 /// # Errors
-/// Where there is none and it cannot be installed.
+/// If it is missing and cannot be installed.
 pub fn counter() -> Result<()> {
     tool("counter of instructions", "valgrind", "valgrind", "install valgrind")
 }

@@ -1,4 +1,4 @@
-//! The compiler for another target: which of three ways, and the cargo command of it.
+//! The compiler for another target: one of three methods, and its cargo command.
 //!
 //! 1. prebuilt: the host's toolchain has the target's libraries.
 //! 2. rust-src: it has the library sources, from which cargo builds `core`.
@@ -15,7 +15,7 @@ use anyhow::{Context as _, Result, bail};
 use crate::chip::debian;
 use crate::command::{cargo, cargo_at, find, output, program, target_dir};
 
-/// The variable that demands one way.
+/// The variable that selects one method.
 const OVERRIDE: &str = "DBD_TOOLCHAIN";
 const DEBIAN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
@@ -40,10 +40,10 @@ enum Way {
 }
 
 impl Toolchain {
-    /// Finds the first way that works for the target, installing Debian's packages last.
+    /// Finds the first method that works for the target; Debian's packages are installed last.
     ///
     /// # Errors
-    /// Where no way works, or the one demanded does not; the remedies are named.
+    /// If no method works, or the selected one does not; the remedies are named.
     pub fn find(target: &str) -> Result<Self> {
         Self::with_linker(target, None)
     }
@@ -82,7 +82,7 @@ impl Toolchain {
         Ok(Self { way, target: target.to_owned(), linker })
     }
 
-    /// The line that says which way was chosen.
+    /// The line that names the chosen method.
     ///
     /// # Errors
     /// Where the compiler does not run.
@@ -90,7 +90,7 @@ impl Toolchain {
         Ok(format!("target toolchain: {} for {}", self.describe_compiler()?, self.target))
     }
 
-    /// The compiler's name, version and way: what instruction counts depend on.
+    /// The compiler's name, version and method, on which instruction counts depend.
     ///
     /// # Errors
     /// Where the compiler does not run.
@@ -195,7 +195,7 @@ fn demanded() -> Result<Option<Way>> {
         Ok("prebuilt") => Ok(Some(Way::Prebuilt)),
         Ok("rust-src") => Ok(Some(Way::RustSrc)),
         Ok("debian") => Ok(Some(Way::Debian)),
-        Ok(other) => bail!("{OVERRIDE}={other}: it is prebuilt, rust-src or debian"),
+        Ok(other) => bail!("{OVERRIDE}={other}: expected prebuilt, rust-src or debian"),
     }
 }
 
@@ -225,8 +225,8 @@ fn has_prebuilt(target: &str) -> bool {
 
 /// Installs Debian's compiler where it is missing or older than the workspace demands.
 fn complete_debian(target: &str) -> Result<()> {
-    let needed =
-        Version::parse(env!("CARGO_PKG_RUST_VERSION")).context("no rust-version is set")?;
+    let needed = Version::parse(env!("CARGO_PKG_RUST_VERSION"))
+        .context("rust-version is not set in Cargo.toml")?;
     let instead = format!("rustup target add {target}");
     if debian_version().is_none_or(|version| version < needed) {
         let purpose = format!("a compiler for {target}, version {needed} or later,");
@@ -239,7 +239,7 @@ fn complete_debian(target: &str) -> Result<()> {
              apt-get install {} from a newer Debian or its security updates; or {instead}",
             DEBIAN_PACKAGES.join(" ")
         ),
-        None => bail!("the packages {} brought no compiler", DEBIAN_PACKAGES.join(" ")),
+        None => bail!("the packages {} contain no compiler", DEBIAN_PACKAGES.join(" ")),
     }
 }
 
@@ -278,7 +278,7 @@ impl fmt::Display for Version {
 fn linker(sysroot: &Path) -> Result<PathBuf> {
     let version = output(host_rustc().arg("-vV"))?;
     let host = version.lines().find_map(|line| line.strip_prefix("host: "));
-    let host = host.context("`rustc -vV` names no host")?;
+    let host = host.context("`rustc -vV` prints no host")?;
     let own = sysroot.join("lib/rustlib").join(host).join("bin/rust-lld");
     if own.is_file() {
         return Ok(own);

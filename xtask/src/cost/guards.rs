@@ -9,7 +9,7 @@ use crate::command::root;
 
 const FILE: &str = "docs/results/guards.csv";
 
-/// The file's first lines: the compiler stands between them.
+/// The file's first lines, with the compiler between them.
 const HEADER: &str = "scene,scheme,precision,step,every_step,look_mean,look_most,look_at_energy";
 
 /// Counts and writes the file.

@@ -133,7 +133,7 @@ fn mixes(text: &str, known: &BTreeMap<u64, (String, String)>) -> Result<Vec<Mix>
         else {
             bail!("cannot read the plugin's line `{line}`");
         };
-        // What stands before the first mark is never written.
+        // Counts before the first mark are never written.
         let Some(place) = mark.checked_sub(1) else { bail!("cannot read `{line}`") };
         let (row, part) = ((place / MARKS) as usize, place % MARKS);
         if part == MARKS - 1 {

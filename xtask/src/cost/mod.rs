@@ -39,7 +39,7 @@ pub fn run(scenes: &[String], compare: bool) -> Result<()> {
             let mut known: Vec<&str> = costs.iter().map(|cost| cost.scene.as_str()).collect();
             known.sort_unstable();
             known.dedup();
-            bail!("there is no shipped scene `{scene}`; there are: {}", known.join(", "));
+            bail!("unknown scene `{scene}`; known scenes: {}", known.join(", "));
         }
     }
     println!("\n{}", table::table(&costs, &mixes, scenes));

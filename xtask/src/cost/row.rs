@@ -99,7 +99,7 @@ pub fn csv(costs: &[Cost]) -> String {
 /// Where its header or a row is not as [`csv`] writes them.
 pub fn read(text: &str) -> Result<Vec<Cost>> {
     if text.lines().next() != Some(HEADER) {
-        bail!("the file of costs has another header");
+        bail!("unexpected header of the cost file");
     }
     let row = |line| read_row(line).with_context(|| format!("cannot read the row `{line}`"));
     text.lines().skip(1).map(row).collect()

@@ -66,7 +66,7 @@ const FUNCTION: &str = "*counted_steps*";
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Subject {
     name: String,
-    /// What the program is told.
+    /// The program's argument.
     argument: String,
     /// Links of a chain.
     links: Option<u64>,
@@ -146,7 +146,7 @@ fn key() -> Result<Key> {
     let text = output(program(rustc).arg("-vV"))?;
     let line = |name: &str| {
         let found = text.lines().find_map(|line| line.strip_prefix(name));
-        found.with_context(|| format!("`rustc -vV` says no `{name}`"))
+        found.with_context(|| format!("`rustc -vV` prints no `{name}`"))
     };
     let compiler = format!("rustc {}", line("release: ")?);
     Ok(Key { compiler, target: line("host: ")?.to_owned() })
@@ -216,6 +216,6 @@ fn rows(steps: &Path, hows: &[How]) -> Result<Vec<Row>> {
     });
     match failed.into_inner() {
         Ok(Some(why)) => Err(why),
-        _ => rows.into_inner().map_err(|_| anyhow::anyhow!("a thread that counted broke off")),
+        _ => rows.into_inner().map_err(|_| anyhow::anyhow!("a counting thread panicked")),
     }
 }

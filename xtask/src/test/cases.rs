@@ -63,7 +63,7 @@ struct Job<'p> {
     /// The program, and its module where it is not all of it.
     name: String,
     program: &'p Program,
-    /// By their names; all of the program where there are none.
+    /// The names; all of the program if empty.
     tests: Vec<String>,
     /// Those that are left out.
     skipped: Vec<String>,
@@ -129,7 +129,7 @@ pub fn run(programs: &[Program], selection: Selection) -> Result<Ran> {
     let ignored = count(|outcome| *outcome == Outcome::Ignored);
     println!("{passed} tests passed, {failed} failed, {ignored} ignored in {total} jobs");
     if failed > 0 || !broken.is_empty() {
-        bail!("{failed} tests failed; jobs that did not end well: [{}]", broken.join("; "));
+        bail!("{failed} tests failed; failed jobs: [{}]", broken.join("; "));
     }
     if passed == 0 {
         bail!("no test was run");

@@ -1,4 +1,4 @@
-//! `cargo xtask test`: everything that must hold before a change is kept.
+//! `cargo xtask test`: all checks of a change.
 //!
 //! `sources => steps => verdict, the slowest tests`. On the host every crate is built once, with all
 //! features, checked and optimised as the dev profile says, and once more for the documentation's
@@ -27,12 +27,12 @@ const KERNEL: &str = "dbd-kernel";
 const GOLDEN: &str = "dbd-bits";
 /// What small models do.
 const MECHANICS: &str = "dbd-mechanics";
-/// What firmwares compare trajectories with.
+/// The package with which firmware compares trajectories.
 const TRAJECTORIES: &str = "dbd-golden";
 const PROOF: &str = "dbd-proof";
-/// What stands on scene and plant alone.
+/// Packages that depend only on scene and plant.
 const FMU: &str = "dbd-fmu";
-/// What every build of the host's takes: one set of features, so that nothing is built twice.
+/// Options of every host build: one set of features, so that nothing is built twice.
 const EVERYTHING: [&str; 2] = ["--workspace", "--all-features"];
 /// Targets that the kernel is checked for beside the firmware's: without an FPU, without
 /// instructions for it, with a newer core.
@@ -215,7 +215,7 @@ fn release(
         if long {
             command.args(["--bin", firmware::SHARED]);
         }
-        // What stands below Python's module is compiled once with the rest.
+        // The dependencies of Python's module are compiled once with the rest.
         command.args(["--package", python::CRATE, "--lib"]);
         let built = build(&mut command)?;
         golden = built.iter().find(|program| program.tests).cloned();

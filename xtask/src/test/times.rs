@@ -21,7 +21,7 @@ const END: &str = "<!-- end of the times -->";
 /// Where a step failed, for then its time says nothing, or the page cannot be read or written.
 pub fn write(steps: &Steps, slowest: &[Case], toolchain: &Toolchain) -> Result<()> {
     if !steps.done().iter().all(Step::passed) {
-        bail!("a step failed or was left out: no times are written");
+        bail!("a step failed or was skipped: no times are written");
     }
     let section = section(&machine(toolchain)?, steps.done(), slowest);
     let file = root().join(FILE);
@@ -73,7 +73,7 @@ fn replace(page: &str, section: &str) -> Result<String> {
         (Some(begin), Some(end)) if begin < end => {
             Ok(format!("{}{section}{}", &page[..begin], &page[end + END.len()..]))
         }
-        _ => bail!("{FILE}: the marks of the section of times are not a pair"),
+        _ => bail!("{FILE}: the marks of the times section do not match"),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Registers of any machine: arrays, which the compiler maps on what is there.
+//! Registers of any machine: arrays, which the compiler maps to the available ones.
 
 use std::array::from_fn;
 use std::ops::{BitAnd, BitOr, Not};
@@ -18,7 +18,7 @@ pub(crate) type Singles = Array<f32, 4>;
 #[repr(transparent)]
 pub(crate) struct Array<T, const W: usize>([T; W]);
 
-/// A truth per lane.
+/// A mask per lane.
 #[derive(Clone, Copy)]
 pub(crate) struct Truths<const W: usize>([bool; W]);
 

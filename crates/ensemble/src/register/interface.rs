@@ -1,21 +1,20 @@
-//! What a register does, and the work that is done with one.
+//! The interface of a register, and work that uses one.
 
 use dbd_kernel::Real;
 use dbd_kernel::geometry::Named;
 use dbd_kernel::real::Truth;
 
-/// A register of numbers. Its operations need its instruction set: a machine that lacks it never comes to
-/// them, for [`crate::InstructionSet::is_there`] is asked first. Within [`Register::enter`] each is an
-/// instruction, elsewhere a call.
+/// A register of numbers. Its operations require its instruction set, which [`crate::InstructionSet::is_there`] checks
+/// first. Within [`Register::enter`] each is an instruction, elsewhere a call.
 pub(crate) trait Register: Copy + Send + Sync + 'static {
     /// The number in each lane.
     type Number: Real<Truth = bool, Count = i32> + Named;
-    /// A truth per lane.
+    /// A mask per lane.
     type Truth: Truth;
-    /// A turn count per lane, as it is stored.
+    /// A revolution count per lane, as stored.
     type Count: Copy + AsRef<[i32]> + AsMut<[i32]>;
 
-    /// How many numbers it holds, at most 32.
+    /// Number of lanes, at most 32.
     const LANES: usize;
     /// The coefficients of [`Real`], in every lane.
     const ATAN: &'static [Self];
@@ -23,7 +22,7 @@ pub(crate) trait Register: Copy + Send + Sync + 'static {
     const COS: &'static [Self];
     /// Likewise.
     const SINC: &'static [Self];
-    /// 0, 1, ½, 2, π, π/2, π/4, tan(π/8) and no number, in every lane.
+    /// 0, 1, ½, 2, π, π/2, π/4, tan(π/8) and NaN, in every lane.
     const NUMBERS: [Self; 9];
 
     /// The same number in every lane.
@@ -32,9 +31,9 @@ pub(crate) trait Register: Copy + Send + Sync + 'static {
     fn from_lanes(lanes: impl Fn(usize) -> Self::Number) -> Self;
     /// The number in a lane.
     fn lane(self, lane: usize) -> Self::Number;
-    /// A truth per lane.
+    /// A mask per lane.
     fn truth(lanes: impl Fn(usize) -> bool) -> Self::Truth;
-    /// The truths, lane 0 lowest.
+    /// The mask bits, lane 0 lowest.
     fn bits(truth: Self::Truth) -> u32;
 
     fn add(self, other: Self) -> Self;
@@ -47,21 +46,21 @@ pub(crate) trait Register: Copy + Send + Sync + 'static {
     fn less_than(self, other: Self) -> Self::Truth;
     fn at_most(self, other: Self) -> Self::Truth;
     fn pick(truth: Self::Truth, then: Self, otherwise: Self) -> Self;
-    /// Turn counts as they are stored, a register's lanes together.
+    /// Revolution counts as stored, for all lanes of a register.
     fn counts(stored: &[i32]) -> &[Self::Count];
     /// Likewise.
     fn counts_mut(stored: &mut [i32]) -> &mut [Self::Count];
 
-    /// Does `work` where the instruction set may be used.
+    /// Runs `work` with the instruction set enabled.
     fn enter<W: Work>(work: W) -> W::Outcome;
 }
 
-/// What is done with an instruction set.
+/// Work with an instruction set.
 pub(crate) trait Work {
-    /// What comes of it.
+    /// Its result.
     type Outcome;
-    /// Does it. To be inlined, with all that it calls: what is compiled apart knows of no instruction set
-    /// but the machine's least.
+    /// Runs it. Must be inlined with everything that it calls: code compiled separately uses only the baseline
+    /// instruction set.
     fn run(self) -> Self::Outcome;
 }
 

@@ -1,7 +1,7 @@
-//! What a number of several lanes is made of: one register of an instruction set.
+//! One register of an instruction set, the basis of a number of several lanes.
 //!
-//! `(register, register) => register`, each operation IEEE 754's in every lane. Nothing is fused, so a
-//! lane has the bits of the scalar operation.
+//! `(register, register) => register`, with IEEE 754 operations in every lane. Nothing is fused, so a lane has the bits
+//! of the scalar operation.
 
 mod array;
 mod interface;

@@ -10,9 +10,9 @@ use dbd_kernel::real::Truth;
 
 use crate::register::interface::{Register, Work, constants};
 
-// SAFETY of all below: an ensemble of these registers is only made where `InstructionSet::is_there` has
-// found the instructions on this machine, and nothing else uses them. Arrays and registers of one size
-// are plain bits to each other.
+// SAFETY of all below: an ensemble of these registers is only made if `InstructionSet::is_there` has found the
+// instructions on this machine, and nothing else uses them. Arrays and registers of the same size have interchangeable
+// bits.
 
 macro_rules! register {
     (
@@ -28,7 +28,7 @@ macro_rules! register {
         #[repr(transparent)]
         pub(crate) struct $name($inner);
 
-        /// A truth per lane.
+        /// A mask per lane.
         #[derive(Clone, Copy)]
         #[repr(transparent)]
         pub(crate) struct $truth($truth_inner);

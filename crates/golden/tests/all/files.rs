@@ -180,7 +180,7 @@ fn what_cannot_be_read_or_written_is_said() {
     fs::create_dir_all(folder.path().join("a.golden.new/full")).unwrap();
     let refused = check(&path, &nudged(), &Tolerance::Bits, Blessing::No).unwrap_err();
     assert!(matches!(&refused, GoldenError::Different { new: Err(_), .. }), "{refused}");
-    assert!(refused.to_string().contains("could not be written"), "{refused}");
+    assert!(refused.to_string().contains("cannot be written"), "{refused}");
     let below = path.join("b.golden");
     let refused = check(&below, &four_bar(), &Tolerance::Bits, Blessing::Yes).unwrap_err();
     assert!(

@@ -1,4 +1,4 @@
-//! A line of a PC: a port that is opened again when it closes, with a disturbance where one is asked for.
+//! A line of a PC: a port that is reopened when it closes, with an optional disturbance.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -13,18 +13,18 @@ pub struct Connection {
     address: Address,
     port: Option<Port>,
     received: VecDeque<u8>,
-    /// The bytes since the last zero, where frames are disturbed.
+    /// The bytes since the last zero, if frames are disturbed.
     piece: Vec<u8>,
     disturbance: Option<Disturbance>,
-    /// How long an answer may take.
+    /// Time limit for an answer.
     answer: Duration,
     deadline: Instant,
-    /// Times that the port was opened.
+    /// Number of times the port was opened.
     pub opened: u32,
 }
 
 impl Connection {
-    /// A line that is not open yet; `answer` is how long the other end may take for an answer.
+    /// A line that is not open yet; `answer` is the time limit for an answer.
     #[must_use]
     pub fn new(address: Address, answer: Duration, disturbance: Option<Disturbance>) -> Self {
         Self {
@@ -33,14 +33,14 @@ impl Connection {
             received: VecDeque::new(),
             piece: Vec::new(),
             disturbance,
-            // At once is never: a question would be repeated without end.
+            // A limit of 0 would repeat a question indefinitely.
             answer: answer.max(Duration::from_millis(1)),
             deadline: Instant::now(),
             opened: 0,
         }
     }
 
-    /// Opens the port where it is closed, for as long as `patience`.
+    /// Opens the port if it is closed, trying for up to `patience`.
     ///
     /// # Errors
     /// [`PortError::Open`].
@@ -54,7 +54,7 @@ impl Connection {
         Ok(())
     }
 
-    /// How long the other end may take for an answer.
+    /// Time limit for an answer.
     #[must_use]
     pub const fn answer(&self) -> Duration {
         self.answer
@@ -100,7 +100,7 @@ impl Connection {
         };
         for byte in bytes {
             self.piece.push(*byte);
-            // A zero before a frame is a piece of its own.
+            // A zero before a frame is a separate piece.
             if *byte == 0 && self.piece.len() > 1 {
                 let piece = std::mem::take(&mut self.piece);
                 self.received.push_back(0);

@@ -1,4 +1,4 @@
-//! What sets the inputs: constants, noise, or a child process that reads and writes lines.
+//! Controllers, which set the inputs: constants, noise, or a child process that reads and writes lines.
 
 use std::io::{self, BufRead as _, BufReader, Write as _};
 use std::process::{Child, ChildStdin, Command, Stdio};
@@ -11,7 +11,7 @@ use thiserror::Error;
 
 use crate::message::Values;
 
-/// What a controller sees of the plant.
+/// The plant data for a controller.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'s> {
     /// Steps since t = 0.
@@ -22,16 +22,16 @@ pub struct Shown<'s> {
     pub sensors: &'s [f64],
 }
 
-/// What sets the inputs.
+/// A controller, which sets the inputs.
 #[allow(clippy::large_enum_variant)]
 pub enum Controller {
     /// All inputs are 0.
     Zero,
-    /// Uniformly distributed within ± an amplitude, by a seed: for comparisons of bits.
+    /// Uniformly distributed within ± an amplitude, from a seed: for comparisons of bits.
     Noise {
         /// \[N, N·m or m\].
         amplitude: f64,
-        /// Where it comes from.
+        /// The generator.
         random: Rng,
     },
     /// A function.
@@ -43,7 +43,7 @@ pub enum Controller {
 /// Why a controller did not set the inputs.
 #[derive(Debug, Error)]
 pub enum ControllerError {
-    /// The command is not one.
+    /// The command is invalid.
     #[error("`{0}` is not a command: a quotation mark is missing")]
     Command(String),
     /// It did not start.
@@ -51,7 +51,7 @@ pub enum ControllerError {
     Start {
         /// The command.
         command: String,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
     /// It ended.
@@ -59,7 +59,7 @@ pub enum ControllerError {
     Ended {
         /// The command.
         command: String,
-        /// How.
+        /// Its exit status.
         status: String,
     },
     /// It did not answer.
@@ -67,25 +67,25 @@ pub enum ControllerError {
     Silent {
         /// The command.
         command: String,
-        /// \[s\] how long it was waited for.
+        /// \[s\] the time limit.
         seconds: f64,
     },
-    /// It answered something else.
+    /// Its answer is invalid.
     #[error("the controller `{command}` answered `{line}`: {reason}")]
     Answer {
         /// The command.
         command: String,
-        /// What it answered.
+        /// Its answer.
         line: String,
-        /// What is wrong with it.
+        /// The problem.
         reason: String,
     },
 }
 
-/// How lines to and from a controller are written.
+/// Format of lines to and from a controller.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Format {
-    /// Numbers with commas between them; the first line to the controller has the names.
+    /// Numbers separated by commas; the first line to the controller contains the names.
     #[default]
     Csv,
     /// An object per line, by names.
@@ -105,7 +105,7 @@ pub struct Process {
 }
 
 impl Process {
-    /// Starts a command, whose words are split as a shell does it. `limit` is how long an answer may take.
+    /// Starts a command, split into words like in a shell. `limit` is the time limit for an answer.
     ///
     /// # Errors
     /// [`ControllerError::Command`], [`ControllerError::Start`], [`ControllerError::Ended`].
@@ -152,7 +152,7 @@ impl Process {
     }
 
     fn ended(&mut self) -> ControllerError {
-        // Its output is closed, so that it is about to end.
+        // Its output is closed, so it is about to end.
         let status = self.child.wait().map_or_else(|error| error.to_string(), |s| s.to_string());
         ControllerError::Ended { command: self.command.clone(), status }
     }
@@ -188,7 +188,7 @@ impl Process {
                 object.insert("step".to_owned(), step.into());
                 object.insert("time".to_owned(), time.into());
                 for (name, value) in self.sensors.iter().zip(sensors) {
-                    // Not a number is null.
+                    // NaN becomes null.
                     object.insert(name.clone(), Value::from(*value));
                 }
                 Value::Object(object).to_string()
@@ -216,7 +216,7 @@ fn csv(line: &str, inputs: &[String]) -> Result<Vec<f64>, String> {
         Ok(numbers)
     } else {
         let (count, names) = (numbers.len(), inputs.join(","));
-        Err(format!("{count} numbers where the inputs are {names}"))
+        Err(format!("{count} numbers given for the inputs {names}"))
     }
 }
 
@@ -225,7 +225,7 @@ fn json(line: &str, inputs: &[String]) -> Result<Vec<f64>, String> {
     let object: Map<String, Value> =
         serde_json::from_str(line).map_err(|error| format!("not a JSON object: {error}"))?;
     if let Some(name) = object.keys().find(|name| !inputs.contains(name)) {
-        return Err(format!("there is no input `{name}`; the inputs are {}", inputs.join(", ")));
+        return Err(format!("unknown input `{name}`; the inputs are {}", inputs.join(", ")));
     }
     let number = |name: &String| match object.get(name).map(Value::as_f64) {
         Some(Some(number)) => Ok(number),
@@ -236,13 +236,13 @@ fn json(line: &str, inputs: &[String]) -> Result<Vec<f64>, String> {
 }
 
 impl Controller {
-    /// Noise within ± `amplitude` by a seed.
+    /// Noise within ± `amplitude` from a seed.
     #[must_use]
     pub fn noise(amplitude: f64, seed: u64) -> Self {
         Self::Noise { amplitude, random: Rng::with_seed(seed) }
     }
 
-    /// The values of all inputs, of which there are so many.
+    /// The values of the given number of inputs.
     ///
     /// # Errors
     /// [`ControllerError`].
@@ -278,7 +278,7 @@ mod tests {
             ("[]", "not a JSON object"),
             (r#"{"a": 1}"#, "`b` is missing"),
             (r#"{"a": 1, "b": "x"}"#, "`b` is not a number"),
-            (r#"{"a": 1, "b": 2, "c": 3}"#, "no input `c`"),
+            (r#"{"a": 1, "b": 2, "c": 3}"#, "unknown input `c`"),
         ] {
             assert!(json(line, &inputs).unwrap_err().contains(reason), "{line}");
         }
@@ -293,7 +293,7 @@ mod tests {
             Process::start(command, Format::Csv, Duration::from_millis(limit), names)
         };
         let shown = Shown { step: 3, time: 0.5, sensors: &[7.0] };
-        // The first line has the names.
+        // The first line contains the names.
         let mut echo =
             start("sh -c 'read head; while read line; do echo \"${line##*,}\"; done'", 10_000)
                 .unwrap();

@@ -1,11 +1,11 @@
-//! A line that damages, loses, repeats and reorders frames, by a seed: how a system under test bears a bad cable.
+//! A line that damages, loses, repeats and reorders frames, from a seed: tests a system with a bad cable.
 
 use std::str::FromStr;
 
 use fastrand::Rng;
 use thiserror::Error;
 
-/// What happens to frames. A fraction is that of all frames, 0 to 1.
+/// Disturbances of frames, as fractions of all frames, 0 to 1.
 #[derive(Clone, Debug)]
 pub struct Disturbance {
     corrupt: f64,
@@ -15,11 +15,11 @@ pub struct Disturbance {
     random: Rng,
     /// A frame that waits for the next one.
     late: Option<Vec<u8>>,
-    /// Frames that were disturbed, by what was done: corrupted, dropped, repeated, reordered.
+    /// Numbers of disturbed frames: corrupted, dropped, repeated, reordered.
     pub done: [u32; 4],
 }
 
-/// A disturbance that cannot be read.
+/// An invalid disturbance.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("`{0}` is not a disturbance")]
 pub struct DisturbanceError(String);
@@ -27,7 +27,7 @@ pub struct DisturbanceError(String);
 impl FromStr for Disturbance {
     type Err = DisturbanceError;
 
-    /// Reads e.g. `corrupt=1%,drop=0.01,duplicate=1%,reorder=1%,seed=7`; what is not named is 0.
+    /// Reads e.g. `corrupt=1%,drop=0.01,duplicate=1%,reorder=1%,seed=7`; missing keys are 0.
     fn from_str(text: &str) -> Result<Self, DisturbanceError> {
         let refused = |part: &str| DisturbanceError(part.to_owned());
         let [mut corrupt, mut drop, mut duplicate, mut reorder] = [0.0; 4];
@@ -60,7 +60,7 @@ impl FromStr for Disturbance {
 }
 
 impl Disturbance {
-    /// What arrives of a frame, in order.
+    /// The pieces that arrive for a frame, in order.
     pub fn pass(&mut self, frame: &[u8]) -> Vec<Vec<u8>> {
         let mut frame = frame.to_vec();
         let waited = self.late.take();
@@ -99,7 +99,7 @@ fn damage(frame: &mut Vec<u8>, random: &mut Rng) {
         0 => frame[at] ^= 1 << random.u8(..8),
         1 => {
             let end = (at + random.usize(1..16)).min(frame.len());
-            // Other bytes than those that were there.
+            // Bytes that differ from the original ones.
             frame[at..end].iter_mut().for_each(|byte| *byte ^= random.u8(1..));
         }
         _ => frame.truncate(at),

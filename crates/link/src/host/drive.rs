@@ -1,7 +1,7 @@
-//! The controller's end on a PC: opens the session, sends inputs, follows the plant with a model of its own.
+//! The controller's end on a PC: opens the session, sends inputs, follows the plant with a model.
 //!
-//! Lost frames are asked for again, a closed port is opened again, a plant that was switched off gets the model's
-//! state back, and a model that cannot follow takes the plant's.
+//! Lost frames are requested again, a closed port is reopened, a plant that was switched off is restored to the model's
+//! state, and a model that cannot follow takes the plant's state.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -20,23 +20,22 @@ use crate::message::{
     Statistics, Values,
 };
 
-/// Questions of one kind before the line counts as dead: at least so many, and for so long.
+/// Minimum number of questions of one kind, and minimum time, before the line is considered dead.
 const TIMES: u32 = 10;
 const DEAD: Duration = Duration::from_secs(2);
-/// Frames of inputs on their way in real time: a line that is slower than the ticks must not fill with old ones.
+/// Maximum number of frames of inputs in flight in real time: a line slower than the ticks must not fill with old ones.
 const WINDOW: usize = 3;
 
-/// What a run is to do.
+/// Options of a run.
 #[derive(Clone, Debug)]
 pub struct DriveOptions {
-    /// How the session runs.
+    /// Settings of the session.
     pub settings: Settings,
     /// Steps since t = 0 at which it ends.
     pub until: u64,
-    /// How long a plant that does not answer is waited for, and a port that does not open.
+    /// Time limit for a plant that does not answer, and for a port that does not open.
     pub patience: Duration,
-    /// Says nothing and closes the port for this long, when the plant has taken these steps: tests of a line that
-    /// breaks.
+    /// Closes the port for this time when the plant has taken these steps, to test a broken line.
     pub silence: Option<(u64, Duration)>,
     /// The number of the first session.
     pub session: u16,
@@ -49,9 +48,9 @@ pub struct Sample<'s> {
     pub step: u64,
     /// Values of the sensors.
     pub sensors: &'s [f64],
-    /// Values of the inputs from here on.
+    /// Values of the inputs from this step.
     pub inputs: &'s [f64],
-    /// How the outputs compare with the model.
+    /// Comparison of the outputs with the model.
     pub followed: Followed,
 }
 
@@ -64,8 +63,8 @@ pub enum DriveError {
     /// The controller failed.
     #[error(transparent)]
     Controller(#[from] ControllerError),
-    /// The plant is another one.
-    #[error("the plant at the port is another one: its {} differs", .mismatch.name())]
+    /// The plant does not match the model.
+    #[error("the plant at the port does not match the model: its {} differs", .mismatch.name())]
     Identity {
         /// What differs first.
         mismatch: Mismatch,
@@ -80,24 +79,24 @@ pub enum DriveError {
     /// The plant refused the inputs.
     #[error("the plant refused the inputs {0:?}: they are not finite in its precision")]
     Inputs(Vec<f64>),
-    /// The other end is of another version.
-    #[error("the plant speaks another version of the protocol than {}", crate::message::VERSION)]
+    /// The other end uses another version.
+    #[error("the plant uses another protocol version than {}", crate::message::VERSION)]
     Version,
-    /// Nobody answers.
+    /// No answer.
     #[error("no answer from the plant within {0} s")]
     Silent(f64),
-    /// The plant and its model cannot be brought to one state.
-    #[error("the plant's state cannot be taken over: {0}")]
+    /// The plant and its model cannot be brought to the same state.
+    #[error("cannot transfer the state of the plant: {0}")]
     State(&'static str),
     /// The trace was not written.
     #[error("cannot write the trace: {0}")]
     Trace(#[from] std::io::Error),
 }
 
-/// Drives a plant until the wanted step; what is seen is shown to `look`.
+/// Drives a plant until the requested step; each frame is passed to `look`.
 ///
 /// # Errors
-/// [`DriveError`], with what was counted until then in `report`.
+/// [`DriveError`], with the statistics until then in `report`.
 pub fn drive(
     connection: &mut Connection,
     follower: &mut Follower,
@@ -150,13 +149,13 @@ impl Run<'_> {
             Mode::RealTime => self.real_time(&mut outputs)?,
         }
         self.report.plant = self.statistics();
-        // A farewell that is lost is not missed.
+        // A lost farewell is ignored.
         _ = self
             .asked(&Message::Goodbye, |answer| matches!(answer, Message::Farewell).then_some(()));
         Ok(())
     }
 
-    /// Opens the port and a session, and brings plant and model to one state; where the plant stands.
+    /// Opens the port and a session, and brings plant and model to the same state; returns the plant's outputs.
     fn open(&mut self) -> Result<Outputs, DriveError> {
         let patience = self.options.patience;
         let end = Instant::now() + patience;
@@ -180,7 +179,7 @@ impl Run<'_> {
         }
     }
 
-    /// Brings plant and model to one state after a welcome.
+    /// Brings plant and model to the same state after a welcome.
     fn meet(&mut self, outputs: Outputs) -> Result<Outputs, DriveError> {
         let own = self.follower.model().step();
         let lockstep = self.options.settings.mode == Mode::Lockstep;
@@ -188,12 +187,12 @@ impl Run<'_> {
             return Ok(outputs);
         }
         if outputs.step == own && own > 0 {
-            // Nobody else drove it: what differs now is a difference, not another state to take.
+            // No one else drove it: a deviation now is a difference, not a new state to adopt.
             self.follower.follow(&outputs);
             return Ok(outputs);
         }
         if outputs.step < own {
-            // It was switched off, and starts at t = 0.
+            // It was switched off, and restarts at t = 0.
             return self.give();
         }
         if lockstep && own > 0 && outputs.step == own + u64::from(self.options.settings.steps) {
@@ -221,7 +220,7 @@ impl Run<'_> {
         ask(&mut self.end, self.connection, times, message, accept)
     }
 
-    /// The model goes on from the plant's state.
+    /// The model continues from the plant's state.
     fn take(&mut self) -> Result<Outputs, DriveError> {
         let mut bytes: Vec<u8> = Vec::new();
         loop {
@@ -243,7 +242,7 @@ impl Run<'_> {
         Ok(self.present())
     }
 
-    /// The plant goes on from the model's state.
+    /// The plant continues from the model's state.
     fn give(&mut self) -> Result<Outputs, DriveError> {
         let state = self.follower.save().ok_or(DriveError::State("the model has failed"))?;
         let total = state.len() as u32;
@@ -270,7 +269,7 @@ impl Run<'_> {
         }
     }
 
-    /// What the plant would send, by the model.
+    /// The outputs that the plant would send, from the model.
     fn present(&self) -> Outputs {
         let model = self.follower.model();
         let mut values = Values::new();
@@ -303,7 +302,7 @@ impl Run<'_> {
         Ok(self.controller.next(shown, model.inputs().len())?)
     }
 
-    /// Breaks the line where it is to break here.
+    /// Breaks the line if requested at this step.
     fn be_silent(&mut self, step: u64) -> Result<bool, DriveError> {
         match self.silence {
             Some((at, duration)) if step >= at => {
@@ -326,7 +325,7 @@ impl Run<'_> {
             let values = self.inputs(outputs)?;
             let (step, sensors, inputs) = (outputs.step, &outputs.values, &values);
             (self.look)(Sample { step, sensors, inputs, followed })?;
-            // The same inputs until the plant has taken its steps, whatever happens to the line.
+            // Keeps the same inputs until the plant has taken its steps, whatever happens to the line.
             loop {
                 let message = Message::Inputs(Inputs { step, values: values.clone() });
                 let (before, sent) = (self.end.sequence(), Instant::now());
@@ -363,10 +362,10 @@ impl Run<'_> {
 
     fn real_time(&mut self, outputs: &mut Outputs) -> Result<(), DriveError> {
         let mut followed = Followed::Equal;
-        // Frames of inputs whose answer is waited for.
+        // Frames of inputs that are not answered yet.
         let mut pending: VecDeque<(u32, Instant)> = VecDeque::new();
         let patience = self.options.patience;
-        // Those that were sent last.
+        // The inputs sent last.
         let mut values: Values = self.follower.model().inputs().iter().map(|_| 0.0).collect();
         loop {
             if self.be_silent(outputs.step)? {
@@ -375,12 +374,12 @@ impl Run<'_> {
             }
             let step = outputs.step;
             let is_over = step >= self.options.until || !outputs.running;
-            // What was not answered in time is lost.
+            // Frames not answered in time are considered lost.
             let answer = self.connection.answer();
             while pending.front().is_some_and(|(_, sent)| sent.elapsed() > answer) {
                 pending.pop_front();
             }
-            // The controller sees every frame, and where the line is full keeps its last values.
+            // The controller gets every frame, and keeps its last values if the line is full.
             let new = self.inputs(outputs)?;
             if pending.len() < WINDOW && !is_over {
                 let message = Message::Inputs(Inputs { step, values: new.clone() });
@@ -394,7 +393,7 @@ impl Run<'_> {
             if is_over {
                 return Ok(());
             }
-            // The newest outputs: those that wait already are followed, and not answered one by one.
+            // The newest outputs: queued ones are followed, but not answered one by one.
             let mut end = Instant::now() + patience;
             let mut new = None;
             while let Some(message) = self.message_until(end) {
@@ -407,7 +406,7 @@ impl Run<'_> {
                                 self.latencies.push(sent.elapsed());
                             }
                         }
-                        // On its way since before the model took the plant's state.
+                        // In flight since before the model took the plant's state.
                         if outputs.step < self.follower.model().step() {
                             self.follower.unknown += 1;
                             continue;

@@ -1,4 +1,4 @@
-//! The model beside a remote plant: it takes the same steps with the same inputs and is compared bit for bit.
+//! The local model of a remote plant: it takes the same steps with the same inputs and is compared bit for bit.
 
 use std::collections::BTreeMap;
 
@@ -8,14 +8,14 @@ use crate::device::Device;
 use crate::host::plant::HostPlant;
 use crate::message::{MAX_CHANGES, Outputs, Values};
 
-/// The model beside a remote plant.
+/// The local model of a remote plant.
 pub struct Follower {
     model: HostPlant,
-    /// The inputs of frames that were sent, by sequence number.
+    /// The inputs of sent frames, by sequence number.
     sent: BTreeMap<u32, Values>,
-    /// Frames of which every bit was compared.
+    /// Frames compared completely.
     pub compared: u64,
-    /// Frames that could not be compared: which inputs the plant had is not known.
+    /// Frames that could not be compared because the plant's inputs are unknown.
     pub unknown: u64,
     /// Frames that differ.
     pub different: u64,
@@ -23,7 +23,7 @@ pub struct Follower {
     pub first: Option<Difference>,
 }
 
-/// What differs between plant and model.
+/// A difference between plant and model.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
     /// Steps since t = 0.
@@ -36,7 +36,7 @@ pub struct Difference {
     pub model: String,
 }
 
-/// How a frame compares.
+/// The result of comparing a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Followed {
     /// All bits are equal.
@@ -48,7 +48,7 @@ pub enum Followed {
 }
 
 impl Follower {
-    /// The model as it stands.
+    /// A follower with the present state of a model.
     #[must_use]
     pub fn new(model: HostPlant) -> Self {
         let sent = BTreeMap::new();
@@ -61,7 +61,7 @@ impl Follower {
         &self.model
     }
 
-    /// Notes the inputs of a frame that was sent.
+    /// Stores the inputs of a sent frame.
     pub fn note(&mut self, sequence: u32, values: &Values) {
         self.sent.insert(sequence, values.clone());
     }
@@ -95,7 +95,7 @@ impl Follower {
         }
         let zero: Values = self.model.inputs().iter().map(|_| 0.0).collect();
         let new = outputs.changes.iter().filter(|change| {
-            // What came after these outputs is in force from the next step on.
+            // Changes after these outputs apply from the next step.
             (start..outputs.step).contains(&change.step)
         });
         let mut changes = Vec::new();
@@ -149,13 +149,13 @@ impl Follower {
         None
     }
 
-    /// The model's state; `None` where it has failed.
+    /// The model's state; `None` if it has failed.
     #[must_use]
     pub fn save(&self) -> Option<Vec<u8>> {
         self.model.plant().snapshot().ok()
     }
 
-    /// Goes on from the plant's state; whether it was accepted.
+    /// Continues from the plant's state; returns whether it was accepted.
     pub fn restore(&mut self, bytes: &[u8]) -> bool {
         self.model.restore(bytes)
     }

@@ -1,9 +1,9 @@
-//! The PC's half: ports, plants of any method, controllers, and what both ends do there.
+//! The PC side: ports, plants with any method, controllers, and both ends.
 //!
-//! `(scene, port, controller) => trace, report`. [`drive()`] is the controller's end with a model beside it that steps
-//! as the plant does and is compared frame by frame; [`serve()`] is the plant's end.
+//! `(scene, port, controller) => trace, report`. [`drive()`] is the controller's end with a local model that takes the
+//! plant's steps and is compared frame by frame; [`serve()`] is the plant's end.
 //!
-//! A test of one's own drives a plant at a port and asks for equal bits:
+//! A test that drives a plant at a port and requires equal bits:
 //!
 //! ```no_run
 //! use std::time::Duration;
@@ -35,10 +35,10 @@
 //! ```
 //!
 //! - [`port`]: addresses and open ports. [`disturbance`]: a line that damages frames, for tests.
-//! - [`connection`]: a port that is opened again when it closes.
-//! - [`plant`]: a scene's plant as a device. [`follower`]: the model beside a remote plant.
-//! - [`controller`]: what sets the inputs: constants, noise, a child process.
-//! - [`report`]: what a run counted. [`mod@drive`], [`mod@serve`]: the two ends.
+//! - [`connection`]: a port that is reopened when it closes.
+//! - [`plant`]: a scene's plant as a device. [`follower`]: the local model of a remote plant.
+//! - [`controller`]: controllers: constants, noise, a child process.
+//! - [`report`]: statistics of a run. [`mod@drive`], [`mod@serve`]: the two ends.
 
 pub mod connection;
 pub mod controller;

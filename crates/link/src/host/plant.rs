@@ -15,8 +15,8 @@ use crate::message::{Identity, MAX_VALUES, Values};
 pub struct HostPlant {
     plant: Box<dyn AnyPlant>,
     scene: String,
-    /// Whether sensors are read in a plane that is another one than the world's: the bits of their values are then
-    /// those of no firmware.
+    /// Whether sensors are read in a plane other than a world plane: the bits of their values then differ from
+    /// firmware.
     turned: bool,
     inputs: Vec<InputIndex>,
     sensors: Vec<(Readout<F64>, usize)>,
@@ -33,8 +33,8 @@ pub struct TooMany {
 }
 
 impl HostPlant {
-    /// The plant of a scene, which is stepped by `plant`: its inputs are those that no table of the scene drives, its
-    /// sensors all read-outs, both in the scene's order.
+    /// The plant of a scene, stepped by `plant`: its inputs are those not driven by a table of the scene, its sensors
+    /// all read-outs, both in the scene's order.
     ///
     /// # Errors
     /// [`TooMany`].
@@ -86,7 +86,7 @@ impl HostPlant {
         self.plant.step_size()
     }
 
-    /// Whether the values of its sensors are those of a firmware bit for bit; the hash of the state always is.
+    /// Whether the values of its sensors are bit-identical to those of firmware, as the hash of the state always is.
     #[must_use]
     pub fn compares_values(&self) -> bool {
         !self.turned

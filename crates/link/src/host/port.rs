@@ -1,4 +1,4 @@
-//! Addresses of ports, and ports that are open.
+//! Addresses of ports, and open ports.
 //!
 //! `unix:PATH, unix-listen:PATH, tcp:HOST:PORT, tcp-listen:HOST:PORT, /dev/tty…[@BAUD], COM3[@BAUD] => port`.
 
@@ -17,14 +17,14 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-/// \[bit/s\] of a serial port where none is given.
+/// \[bit/s\] default bit rate of a serial port.
 const BAUD: u32 = 115_200;
-/// \[bytes\] that are read at once.
+/// \[bytes\] size of a read.
 const BUFFER: usize = 4096;
-/// How often a reading thread looks whether its port was closed, and a port that does not open is tried again.
+/// Interval at which a reading thread checks whether its port was closed, and at which opening a port is retried.
 const GLANCE: Duration = Duration::from_millis(50);
 
-/// Where the other end is.
+/// Address of the other end.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Address {
     /// A Unix socket at which another program listens, as QEMU does.
@@ -39,7 +39,7 @@ pub enum Address {
     Serial(String, u32),
 }
 
-/// What is wrong with a port.
+/// An error of a port.
 #[derive(Debug, Error)]
 pub enum PortError {
     /// It is not an address.
@@ -50,7 +50,7 @@ pub enum PortError {
     Open {
         /// The address.
         address: Address,
-        /// Why.
+        /// The reason.
         reason: io::Error,
     },
 }
@@ -83,9 +83,9 @@ impl FromStr for Address {
                 let serial = path.starts_with('/') || path.to_ascii_uppercase().starts_with("COM");
                 match baud {
                     Some(baud) if serial => Ok(Self::Serial(path.to_owned(), baud)),
-                    None => refused("after @ follows the bit rate, e.g. /dev/ttyACM0@921600"),
+                    None => refused("give a bit rate after @, e.g. /dev/ttyACM0@921600"),
                     Some(_) => refused(
-                        "write unix:PATH, unix-listen:PATH, tcp:HOST:PORT, tcp-listen:HOST:PORT, \
+                        "expected unix:PATH, unix-listen:PATH, tcp:HOST:PORT, tcp-listen:HOST:PORT, \
                          /dev/tty…[@BAUD] or COM3[@BAUD]",
                     ),
                 }
@@ -106,7 +106,7 @@ impl fmt::Display for Address {
     }
 }
 
-/// An open port; a thread reads it, for a socket's own timeouts are too coarse for a tick.
+/// An open port; a thread reads it, because a socket's timeouts are too coarse for a tick.
 pub struct Port {
     writer: Box<dyn Write + Send>,
     bytes: Receiver<Vec<u8>>,
@@ -115,7 +115,7 @@ pub struct Port {
 }
 
 impl Port {
-    /// Opens a port; tries again for as long as `patience` where nobody is there yet.
+    /// Opens a port, retrying for up to `patience`.
     ///
     /// # Errors
     /// [`PortError::Open`] with the last reason.
@@ -137,7 +137,7 @@ impl Port {
             Address::Unix(path) => Self::of_unix(UnixStream::connect(path)?),
             #[cfg(unix)]
             Address::UnixListen(path) => {
-                // What an earlier program left behind; a file that is not a socket stays.
+                // Removes the socket of an earlier program; other files are kept.
                 if UnixStream::connect(path).is_err() && is_socket(path) {
                     std::fs::remove_file(path)?;
                 }
@@ -192,7 +192,7 @@ impl Port {
         let closed = Arc::clone(&close);
         thread::spawn(move || {
             let mut buffer = [0; BUFFER];
-            // Nothing ends before a zero does: who waits is not woken for less.
+            // A frame ends with a zero: a waiting thread is woken only then.
             let mut piece = Vec::new();
             while !closed.load(Ordering::Relaxed) {
                 use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
@@ -213,7 +213,7 @@ impl Port {
         Self { writer, bytes, close, shut }
     }
 
-    /// What arrived until `end`; nothing where nothing did, `None` where the port is closed.
+    /// The bytes that arrived until `end`, possibly none; `None` if the port is closed.
     pub fn read(&mut self, end: Instant) -> Option<Vec<u8>> {
         match self.bytes.recv_timeout(end.saturating_duration_since(Instant::now())) {
             Ok(bytes) => Some(bytes),
@@ -222,7 +222,7 @@ impl Port {
         }
     }
 
-    /// Sends bytes; whether the port took them.
+    /// Sends bytes; returns whether the port accepted them.
     pub fn write(&mut self, bytes: &[u8]) -> bool {
         self.writer.write_all(bytes).and_then(|()| self.writer.flush()).is_ok()
     }
@@ -241,7 +241,7 @@ fn accepted<S>(end: Instant, mut accept: impl FnMut() -> io::Result<S>) -> io::R
         match accept() {
             Err(error) if error.kind() == io::ErrorKind::WouldBlock => {
                 if Instant::now() >= end {
-                    return Err(io::Error::new(io::ErrorKind::TimedOut, "nobody connected"));
+                    return Err(io::Error::new(io::ErrorKind::TimedOut, "no connection"));
                 }
                 thread::sleep(Duration::from_millis(2));
             }

@@ -1,4 +1,4 @@
-//! What a run over a line counted and timed.
+//! Statistics and timing of a run over a line.
 
 use std::time::Duration;
 
@@ -7,20 +7,20 @@ use serde::Serialize;
 use crate::host::follower::{Difference, Follower};
 use crate::message::Statistics;
 
-/// \[s\] times from inputs that were sent to outputs that had them.
+/// \[s\] times from sending inputs to receiving the corresponding outputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Latency {
-    /// How many were timed.
+    /// Number of times.
     pub count: usize,
     /// The shortest.
     pub least: f64,
-    /// Half are shorter.
+    /// The median.
     pub p50: f64,
-    /// Nine of ten are shorter.
+    /// The 90th percentile.
     pub p90: f64,
-    /// All but one of a hundred.
+    /// The 99th percentile.
     pub p99: f64,
-    /// All but one of a thousand.
+    /// The 99.9th percentile.
     pub p999: f64,
     /// The longest.
     pub most: f64,
@@ -48,7 +48,7 @@ impl Latency {
     }
 }
 
-/// How a run went.
+/// The results of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
     /// Steps since t = 0 at the end.
@@ -57,34 +57,34 @@ pub struct Report {
     pub hash: String,
     /// Whether the plant has not failed.
     pub running: bool,
-    /// Frames of outputs of which every bit was compared.
+    /// Frames of outputs compared completely.
     pub compared: u64,
     /// Frames of outputs that differed.
     pub different: u64,
     /// Frames of outputs that could not be compared.
     pub unknown: u64,
-    /// Times that the model went on from the plant's state.
+    /// Number of times the model took the plant's state.
     pub synchronised: u32,
-    /// Times that the plant went on from the model's state, having lost its own.
+    /// Number of times the plant was restored to the model's state.
     pub restored: u32,
-    /// Times that the port was opened again.
+    /// Number of times the port was reopened.
     pub reconnected: u32,
     /// The first difference.
     pub first_difference: Option<Difference>,
-    /// From inputs to the outputs that had them.
+    /// Round-trip times of inputs.
     pub latency: Latency,
-    /// What this end has seen.
+    /// Statistics of this end.
     pub own: Statistics,
-    /// What the plant's end has seen; nothing where it did not say.
+    /// Statistics of the plant's end, if received.
     pub plant: Option<Statistics>,
-    /// Frames that were disturbed on purpose: corrupted, dropped, repeated, reordered.
+    /// Deliberately disturbed frames: corrupted, dropped, repeated, reordered.
     pub disturbed: [u32; 4],
-    /// \[s\] how long it took.
+    /// \[s\] duration.
     pub seconds: f64,
 }
 
 impl Report {
-    /// Whether all was compared, or what could not be was followed by a new comparison, and no bit differed.
+    /// Whether no bit differed and each frame that could not be compared was followed by one that was.
     #[must_use]
     pub fn is_equal(&self) -> bool {
         self.different == 0 && self.compared > 0

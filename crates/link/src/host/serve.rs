@@ -1,4 +1,4 @@
-//! The plant's end on a PC: for a controller on a microcontroller, or in another program.
+//! The plant's end on a PC, for a controller on a microcontroller or in another program.
 
 use std::time::{Duration, Instant};
 
@@ -12,37 +12,37 @@ use crate::host::port::PortError;
 use crate::message::Statistics;
 use crate::plant_end::PlantEnd;
 
-/// \[bytes\] of a snapshot at most: some 2,000 bodies.
+/// \[bytes\] maximum size of a snapshot: about 2,000 bodies.
 const SNAPSHOT: usize = 1 << 18;
-/// How often a line without ticks is looked at.
+/// Polling interval of a line without ticks.
 const GLANCE: Duration = Duration::from_millis(100);
 
-/// How a plant is served.
+/// Options of the plant's end.
 #[derive(Clone, Copy, Debug)]
 pub struct ServeOptions {
-    /// From tick to tick of real time; `None` allows lockstep alone.
+    /// Period of real-time ticks; `None` allows only lockstep.
     pub period: Option<Duration>,
-    /// How long nobody may be at the port, or in a session, before it ends; for ever where there is none.
+    /// Time limit without a connection or a session; unlimited if not given.
     pub patience: Option<Duration>,
-    /// Goes on after a controller has said goodbye.
+    /// Continues after a controller ends its session.
     pub forever: bool,
 }
 
-/// Why a plant is not served.
+/// Why a plant cannot be served.
 #[derive(Debug, Error)]
 pub enum ServeError {
     /// The port does not open.
     #[error(transparent)]
     Port(#[from] PortError),
     /// Its snapshot does not fit.
-    #[error("a snapshot of the scene takes more than {SNAPSHOT} bytes")]
+    #[error("a snapshot of the scene requires more than {SNAPSHOT} bytes")]
     Large,
-    /// Nobody came.
-    #[error("no controller within {0} s")]
+    /// No controller connected.
+    #[error("no controller connected within {0} s")]
     Silent(f64),
 }
 
-/// A plant that was served.
+/// The results of a served plant.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Served {
     /// Steps since t = 0.
@@ -51,13 +51,13 @@ pub struct Served {
     pub hash: String,
     /// Whether the plant has not failed.
     pub running: bool,
-    /// What was counted.
+    /// The statistics.
     pub plant: Statistics,
-    /// Frames that were disturbed on purpose: corrupted, dropped, repeated, reordered.
+    /// Deliberately disturbed frames: corrupted, dropped, repeated, reordered.
     pub disturbed: [u32; 4],
 }
 
-/// Serves a plant at a port until a controller says goodbye.
+/// Serves a plant at a port until a controller ends its session.
 ///
 /// # Errors
 /// [`ServeError`].
@@ -68,7 +68,7 @@ pub fn serve(
 ) -> Result<Served, ServeError> {
     let period = options.period.map_or(0, |period| period.as_micros().min(u32::MAX.into()) as u32);
     let end = PlantEnd::<_, SNAPSHOT>::new(plant, period).ok_or(ServeError::Large)?;
-    // Half a megabyte has no place on a stack.
+    // Half a megabyte is too large for a stack.
     let mut end = Box::new(end);
     let patience = options.patience.unwrap_or(Duration::MAX / 4);
     let (mut next, mut heard, mut was_open) = (None, Instant::now(), false);

@@ -59,14 +59,14 @@ fn a_readout_of_another_kind_ends_the_start() {
     let kind = |wanted, found| Problem::Kind { wanted, found };
     let vector = refused(encoder(Probe::scalar("cart", POINT)));
     assert_eq!(vector, error("cart", kind("a number", "a vector")));
-    let text = "`cart`: the read-out shows a vector where a number is needed";
+    let text = "`cart`: the read-out is a vector, expected a number";
     assert_eq!(vector.to_string(), text);
     let number = refused(encoder(Probe::along("angle", ANGLE, [1.0, 0.0, 0.0])));
     assert_eq!(number, error("angle", kind("a vector", "a number")));
     let imu = refused(encoder(Probe::scalar("imu", IMU)));
-    assert_eq!(imu, error("imu", kind("a number", "specific force and rate")));
+    assert_eq!(imu, error("imu", kind("a number", "specific force and angular rate")));
     let angle = refused(Mpu6000::<F32>::new("imu", ANGLE, ImuParameters::default()));
-    assert_eq!(angle, error("imu", kind("specific force and rate", "a number")));
+    assert_eq!(angle, error("imu", kind("specific force and angular rate", "a number")));
     let speed = Motor::new("m", TORQUE, IDEAL).with_speed(Probe::scalar("speed", POINT));
     assert_eq!(refused(speed), error("speed", kind("a number", "a vector")));
 }
@@ -115,15 +115,15 @@ fn parameters_out_of_range_are_named() {
     type Change<'c> = &'c dyn Fn(&mut MotorParameters);
     let cases: [(Change<'_>, &str); 10] = [
         (&|p| p.lag = -1.0, "the lag"),
-        (&|p| p.most_duty = 0, "the largest duty"),
+        (&|p| p.most_duty = 0, "the maximum duty"),
         (&|p| p.ratio = 0.0, "the ratio"),
-        (&|p| p.most_current = 0.0, "the most current"),
+        (&|p| p.most_current = 0.0, "the maximum current"),
         (&|p| p.torque_constant = f64::NAN, "the torque constant"),
-        (&|p| p.friction_speed = 0.0, "the friction's speed"),
+        (&|p| p.friction_speed = 0.0, "the friction speed"),
         (&|p| p.supply = supply(12.0, 0.0, 0.0), "the resistance"),
         (&|p| p.supply = supply(0.0, 1.0, 0.0), "the voltage"),
-        (&|p| p.supply = supply(12.0, 1.0, 0.1), "the speed, which back-EMF needs,"),
-        (&|p| p.friction = 0.1, "the speed, which friction needs,"),
+        (&|p| p.supply = supply(12.0, 1.0, 0.1), "the speed (required for back-EMF)"),
+        (&|p| p.friction = 0.1, "the speed (required for friction)"),
     ];
     for (change, which) in cases {
         assert_eq!(motor(change), Problem::Parameter(which));
@@ -146,7 +146,7 @@ fn parameters_out_of_range_are_named() {
     let encoder = |parameters| Encoder::<F32>::new(Probe::scalar("e", ANGLE), parameters);
     assert_eq!(refused(encoder(still)).problem, Problem::Parameter("the turn"));
     let chip = refused(As5047p::new(encoder(EncoderParameters::at_joint(4_096))));
-    assert_eq!(chip.problem, Problem::Parameter("the number of counts, here always 16384,"));
+    assert_eq!(chip.problem, Problem::Parameter("the number of counts (fixed at 16384)"));
     let address = ImuParameters { address: 0x78, ..ImuParameters::default() };
     let imu = refused(Mpu6000::<F32>::new("imu", IMU, address));
     assert_eq!(imu.problem, Problem::Parameter("the address"));

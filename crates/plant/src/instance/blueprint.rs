@@ -12,7 +12,7 @@ use dbd_scene::{Scene, SceneError};
 /// A scene's text with changes of its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blueprint {
-    /// What messages call the text.
+    /// Name of the text in messages.
     pub file: String,
     /// The scene in TOML.
     pub text: Arc<str>,
@@ -21,7 +21,7 @@ pub struct Blueprint {
 }
 
 impl Blueprint {
-    /// A scene from its text; `file` is what messages call it.
+    /// A scene from its text; `file` is its name in messages.
     pub fn new(file: impl Into<String>, text: impl Into<Arc<str>>) -> Self {
         Self { file: file.into(), text: text.into(), changes: Vec::new() }
     }
@@ -38,7 +38,7 @@ impl Blueprint {
         }
     }
 
-    /// The same with a further change, `PATH=VALUE`.
+    /// Adds a change, `PATH=VALUE`.
     #[must_use]
     pub fn with(mut self, change: impl Into<String>) -> Self {
         self.changes.push(change.into());

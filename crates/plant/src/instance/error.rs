@@ -1,4 +1,4 @@
-//! What can go wrong, in words that every tool shows.
+//! Errors of an instance, with the messages that all tools show.
 
 use crate::time::display;
 use crate::{MethodError, PlanError, PlantError};
@@ -8,25 +8,25 @@ use dbd_scene::SceneError;
 use miette::Diagnostic;
 use thiserror::Error;
 
-/// Why an instance was not made, or did not do what it was asked for.
+/// Reason why an instance was not created or an operation failed.
 #[derive(Debug, Error, Diagnostic)]
 pub enum InstanceError {
     /// The scene cannot be read or is refused, or a parameter is.
     #[error("{}", placed(.0))]
     #[diagnostic(help("{}", .0.help()))]
     Scene(SceneError),
-    /// A scheme, damping or precision that is none.
+    /// Unknown scheme, damping or precision.
     #[error("there is no {kind} `{name}`")]
-    #[diagnostic(help("{}", .known.join(", ")))]
+    #[diagnostic(help("expected one of {}", .known.join(", ")))]
     Choice {
         /// `scheme`, `damping` or `precision`.
         kind: &'static str,
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// All that there are.
+        /// All valid names.
         known: Vec<&'static str>,
     },
-    /// A combination that is no method.
+    /// Invalid combination of method options.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Method(#[from] MethodError),
@@ -34,26 +34,26 @@ pub enum InstanceError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plan(#[from] PlanError),
-    /// The precision cannot hold the scene or the step.
+    /// The precision cannot represent the scene or the step.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plant(#[from] PlantError),
     /// No input, output or parameter has this name.
     #[error("the scene `{scene}` has no {kind} `{name}`")]
-    #[diagnostic(help("{}", meant.as_ref().map_or_else(|| format!("see the list of every {kind}"), |m| format!("did you mean `{m}`?"))))]
+    #[diagnostic(help("{}", meant.as_ref().map_or_else(|| format!("see the list of {kind}s"), |m| format!("did you mean `{m}`?"))))]
     Unknown {
         /// The scene.
         scene: String,
         /// `input`, `output` or `parameter`.
         kind: &'static str,
-        /// What was asked for.
+        /// The requested name.
         name: String,
-        /// What was probably meant.
+        /// The closest valid name.
         meant: Option<String>,
     },
-    /// An input cannot take a value.
+    /// Invalid value of an input.
     #[error("the input `{input}` cannot take {value:?}: {reason}")]
-    #[diagnostic(help("finite numbers within the precision"))]
+    #[diagnostic(help("give a finite number that the precision can represent"))]
     Input {
         /// Its name.
         input: String,
@@ -63,17 +63,17 @@ pub enum InstanceError {
         reason: InputError,
     },
     /// A parameter is not finite.
-    #[error("the parameter `{path}` cannot be {value:?}")]
-    #[diagnostic(help("a finite number"))]
+    #[error("the parameter `{path}` cannot be set to {value:?}")]
+    #[diagnostic(help("give a finite number"))]
     Parameter {
         /// Its path.
         path: String,
         /// \[its unit\] the value.
         value: f64,
     },
-    /// A time that no whole number of steps leads to.
-    #[error("a time of {time:?} s is no whole number of steps of {}", display(*step))]
-    #[diagnostic(help("the nearest that are: {before:?} s and {after:?} s"))]
+    /// A time that is not a whole number of steps.
+    #[error("time {time:?} s is not a whole number of steps of {}", display(*step))]
+    #[diagnostic(help("the nearest valid times are {before:?} s and {after:?} s"))]
     Multiple {
         /// \[s\] the time.
         time: f64,
@@ -84,9 +84,11 @@ pub enum InstanceError {
         /// \[s\] the next one.
         after: f64,
     },
-    /// A time that is none, or has passed.
-    #[error("a time of {time:?} s cannot be gone to from {now:?} s")]
-    #[diagnostic(help("a finite time, not before the present one; restore a state to go back"))]
+    /// A time that is not finite or has passed.
+    #[error("cannot advance to {time:?} s from {now:?} s")]
+    #[diagnostic(help(
+        "give a finite time not before the present one; restore a state to go back"
+    ))]
     Past {
         /// \[s\] the time.
         time: f64,
@@ -95,9 +97,9 @@ pub enum InstanceError {
     },
     /// A step failed; the instance stays where it failed.
     #[error("{what} at {time:?} s, in step {step} of {}", display(*step_size))]
-    #[diagnostic(help("a shorter step; reset or restore to go on"))]
+    #[diagnostic(help("use a shorter step; reset or restore to continue"))]
     Failed {
-        /// What went wrong, and with which body or spring.
+        /// The failure and the body or spring concerned.
         what: String,
         /// \[s\] the time after the step that failed.
         time: f64,
@@ -106,25 +108,25 @@ pub enum InstanceError {
         /// \[s\] how long it is.
         step_size: f64,
     },
-    /// Bytes are no state of this instance.
-    #[error("the state cannot be taken: {0}")]
+    /// The bytes are not a valid state of this instance.
+    #[error("the state cannot be restored: {0}")]
     #[diagnostic(help(
-        "a state saved by an instance of the same scene, scheme, precision and step"
+        "use a state saved by an instance of the same scene, scheme, precision and step"
     ))]
     State(SnapshotError),
-    /// There is no linear system at a state.
+    /// The linearisation at a state failed.
     #[error("{what}")]
     #[diagnostic(help("{remedy}"))]
     Linearisation {
-        /// What is wrong.
+        /// Problem.
         what: String,
-        /// What would be right.
+        /// Remedy.
         remedy: &'static str,
     },
 }
 
 impl InstanceError {
-    /// What is wrong and what would be right, in one line, as tools show it.
+    /// Problem and remedy in one line, as tools show it.
     #[must_use]
     pub fn sentence(&self) -> String {
         match self.help() {
@@ -140,7 +142,7 @@ impl From<SceneError> for InstanceError {
     }
 }
 
-/// A refusal with its place: `cart.toml:3:7: …`.
+/// An error with its position: `cart.toml:3:7: …`.
 fn placed(error: &SceneError) -> String {
     match (error.line(), error.column()) {
         (Some(line), Some(column)) => format!("{}:{line}:{column}: {error}", error.file()),

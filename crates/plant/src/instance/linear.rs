@@ -13,12 +13,12 @@ use crate::instance::spectrum::{Slow, eigenvalues, slowest};
 
 /// The joints are loaded where the fast motions' residual has fallen to this fraction of the first one.
 const SETTLED: f64 = 1e-9;
-/// Rounds in which the joints take up their loads.
+/// Iterations that load the joints.
 const SETTLING_ROUNDS: usize = 20;
 /// The states determine the slow motions up to this condition number.
 const MAX_CONDITION: f64 = 1e6;
 
-/// What is linearised.
+/// Options of a linearisation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearOptions {
     /// Names of outputs that become the states; `None` for the twelve coordinates of each body.
@@ -61,7 +61,7 @@ pub struct Linear {
     pub inputs: Vec<String>,
     /// Names of the outputs.
     pub outputs: Vec<String>,
-    /// \[rad/s\] the slowest motion that was left out; infinite where nothing was.
+    /// \[rad/s\] the slowest motion left out; infinite if none was.
     pub slowest_left_out: f64,
 }
 
@@ -79,12 +79,12 @@ impl Instance {
     /// The plant as a linear system near its present state, in double precision and continuous time. The plant
     /// does not change.
     ///
-    /// With n states the system is reduced to its n slowest motions. The joints take up their loads first, for
-    /// a preload stiffens them: the linear system is that of the pose with loaded joints. D holds what the fast
-    /// motions add to the outputs once they have settled.
+    /// With n states the system is reduced to its n slowest motions. The joints are loaded first, because a preload
+    /// stiffens them: the linear system is that of the pose with loaded joints. D contains the quasi-static
+    /// contribution of the fast motions to the outputs.
     ///
     /// # Errors
-    /// [`InstanceError::Unknown`] where a name is none, [`InstanceError::Linearisation`] where the states do
+    /// [`InstanceError::Unknown`] for an unknown name, [`InstanceError::Linearisation`] where the states do
     /// not determine the slow motions, the next motion is less than three times as fast, the joints do not
     /// settle, or a force or an output is undefined.
     pub fn linearise(&self, options: &LinearOptions) -> Result<Linear, InstanceError> {
@@ -92,7 +92,7 @@ impl Instance {
         if !(perturb.is_finite() && *perturb > 0.0 && *perturb < 0.1) {
             return Err(InstanceError::Linearisation {
                 what: format!("perturb cannot be {perturb:?}"),
-                remedy: "a number between 0 and 0.1",
+                remedy: "give a number between 0 and 0.1",
             });
         }
         let all = || self.inputs().iter().map(|input| input.name.clone()).collect();
@@ -129,8 +129,8 @@ impl Instance {
         let is_twice = |(row, name)| states[..row].contains(name);
         if !(1..whole).contains(&count) || states.iter().enumerate().any(is_twice) {
             return Err(InstanceError::Linearisation {
-                what: format!("{count} states cannot be those of a system of {whole} coordinates"),
-                remedy: "each output once, at least one and fewer than the coordinates",
+                what: format!("cannot reduce a system of {whole} coordinates to {count} states"),
+                remedy: "name each output once, at least one and fewer than the coordinates",
             });
         }
         let settled = Settled::of(&mut probe, &driven, &[seen, shown].concat(), count, *perturb)?;
@@ -141,10 +141,10 @@ impl Instance {
         let back = inverse(&see, &(seen.abs() * basis.abs())).ok_or_else(|| {
             InstanceError::Linearisation {
                 what: format!(
-                    "the outputs {} do not tell the {count} slowest motions apart",
+                    "the outputs {} do not distinguish the {count} slowest motions",
                     states.join(", ")
                 ),
-                remedy: "a position and its rate for each freedom",
+                remedy: "give a position and its rate for each degree of freedom",
             }
         })?;
         let shown_of_input = d.rows(count, outputs.len()) + shown * response;
@@ -171,12 +171,12 @@ impl Instance {
 struct Settled {
     jacobians: Jacobians,
     slow: Slow,
-    /// How far the fast motions follow the inputs once they have settled, coordinates × inputs.
+    /// Quasi-static response of the fast motions to the inputs, coordinates × inputs.
     response: DMatrix<f64>,
 }
 
 impl Settled {
-    /// Moves the fast motions to where they are at rest, by Newton's method.
+    /// Moves the fast motions to equilibrium by Newton's method.
     fn of(
         probe: &mut Probe,
         inputs: &[usize],
@@ -185,8 +185,8 @@ impl Settled {
         perturb: f64,
     ) -> Result<Self, InstanceError> {
         let restless = || InstanceError::Linearisation {
-            what: "the joints do not settle under their loads near this state".into(),
-            remedy: "a pose closer to one at rest",
+            what: "the joints do not reach equilibrium under their loads near this state".into(),
+            remedy: "use a pose closer to equilibrium",
         };
         let mut first = None;
         for _ in 0..SETTLING_ROUNDS {

@@ -1,10 +1,10 @@
-//! Linearisation: how a plant's motion answers to small changes of its state and inputs.
+//! Linearisation: response of a plant to small changes of its state and inputs.
 //!
 //! `(model, state) => f, ∂f/∂x, ∂f/∂u, ∂y/∂x, ∂y/∂u` of ẋ = f(x, u), y = g(x, u), by central differences
 //! of fourth order over the kernel's wrenches in double precision, dampers included. Twelve coordinates
-//! per body: shift along the world's axes \[m\], turn about the body's \[rad\], and their rates
-//! \[m/s, rad/s\], all shifts and turns before all rates. Newton and Euler; the turn φ from a turning body
-//! changes as φ̇ = δω − ω × φ.
+//! per body: translation along the world's axes \[m\], rotation about the body's \[rad\], and their rates \[m/s,
+//! rad/s\], all positions before all rates. Newton and Euler; the rotation φ relative to a rotating body changes as φ̇
+//! = δω − ω × φ.
 
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::laws::{Laws as _, Need};
@@ -60,8 +60,10 @@ impl Probe {
         let memory = instance.plant().model().laws.memory();
         if let Some((law, Need::Passes)) = memory {
             return Err(InstanceError::Linearisation {
-                what: format!("a rotor of the law `{law}` moves beside the bodies"),
-                remedy: "a drive without a rotor, its inertia added to a body",
+                what: format!(
+                    "the rotor of the law `{law}` is a degree of freedom outside the bodies"
+                ),
+                remedy: "use a drive without a rotor and add its inertia to a body",
             });
         }
         let set = of.set().iter().map(|(path, value)| (path.as_str(), *value));
@@ -92,7 +94,7 @@ impl Probe {
         self.rates = self.state.bodies.iter().map(|body| body.angular_velocity).collect();
     }
 
-    /// Moves the state by so much of each coordinate \[m, rad, m/s, rad/s\].
+    /// Moves the state by the given displacement of each coordinate \[m, rad, m/s, rad/s\].
     pub fn shift(&mut self, by: &DVector<f64>) {
         for (coordinate, by) in by.iter().enumerate() {
             self.state = self.moved(coordinate, *by);
@@ -125,7 +127,7 @@ impl Probe {
         state
     }
 
-    /// ẋ in a state whose turns are small ones from the probe's.
+    /// ẋ in a state with small rotations relative to that of the probe.
     fn rate(
         &self,
         state: &Bodies,
@@ -244,7 +246,7 @@ fn add(matrix: &mut DMatrix<f64>, column: usize, weight: f64, values: &[f64]) {
 }
 
 fn undefined(what: String) -> InstanceError {
-    InstanceError::Linearisation { what, remedy: "other outputs, or another pose" }
+    InstanceError::Linearisation { what, remedy: "use other outputs or another pose" }
 }
 
 fn finite<M: AsRef<[f64]>>(all: M) -> Result<M, InstanceError> {

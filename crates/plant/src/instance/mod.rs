@@ -1,5 +1,5 @@
 //! A scene of Discrete Body Dynamics as a component of another tool: its inputs, outputs and parameters have names and
-//! units, its state is bytes, its time is absolute. The FMU and the Python package stand on it.
+//! units, its state is bytes, its time is absolute. The FMU and the Python package use it.
 //!
 //! ```
 //! use dbd_plant::instance::{Blueprint, Instance, Settings};
@@ -46,15 +46,15 @@
 //!
 //! # Modules
 //!
-//! Each uses only those before it:
+//! Each uses only those above it:
 //!
-//! - `error`: what can go wrong, in words that every tool shows.
+//! - `error`: errors, with the messages that all tools show.
 //! - [`settings`]: scheme, precision and step by name.
 //! - [`blueprint`]: the scene that instances are made from.
 //! - [`variables`]: inputs and outputs, their names and units.
-//! - `running`: a plant, what it is given and what it shows.
+//! - `running`: a plant with its inputs and outputs.
 //! - `saved`: its state as bytes.
-//! - [`linearisation`]: how its motion answers to small changes of state and inputs.
+//! - [`linearisation`]: response to small changes of state and inputs.
 //! - [`spectrum`]: eigenvalues of a matrix and the subspace of its slowest motions.
 //! - [`linear`]: the plant as a linear system.
 

@@ -1,7 +1,7 @@
-//! A plant, what it is given and what it shows.
+//! A plant with named inputs, outputs and parameters.
 //!
-//! `(inputs, time) => outputs`. Outputs are computed when they are asked for. Parameters are those of the
-//! scene's text; setting them makes the plant anew.
+//! `(inputs, time) => outputs`. Outputs are computed on request. Parameters are those of the scene's text; setting them
+//! rebuilds the plant.
 
 use std::collections::BTreeMap;
 
@@ -16,10 +16,10 @@ use crate::instance::error::InstanceError;
 use crate::instance::settings::Settings;
 use crate::instance::variables::{self, Input, Output};
 
-/// How far a time may be from a whole number of steps, in steps: callers add up their own.
+/// Tolerance of a time against a whole number of steps, in steps: callers accumulate their own time.
 pub const NEAR: f64 = 0.01;
 
-/// A scene's plant whose values have names.
+/// A scene's plant with named values.
 ///
 /// It is `Send`: each thread may have its own. A failure latches until [`Self::reset`],
 /// [`Self::restore`] or [`Self::set_parameters`].
@@ -38,7 +38,7 @@ impl Instance {
     /// An instance at t = 0.
     ///
     /// # Errors
-    /// Where the scene is refused, the settings name what is none, or do not go with the scene.
+    /// If the scene is invalid, or the settings are unknown or incompatible with the scene.
     pub fn new(blueprint: Blueprint, settings: Settings) -> Result<Self, InstanceError> {
         Self::with(blueprint, settings, BTreeMap::new())
     }
@@ -80,7 +80,7 @@ impl Instance {
         &self.blueprint
     }
 
-    /// How it is stepped, as it was asked for.
+    /// The settings as requested.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
@@ -92,7 +92,7 @@ impl Instance {
         &self.set
     }
 
-    /// The scene with the parameters in place.
+    /// The scene with the parameters applied.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -104,7 +104,7 @@ impl Instance {
         self.plant.as_ref()
     }
 
-    /// The plant itself, to be given states of bodies.
+    /// The plant itself, for setting states of bodies.
     pub fn plant_mut(&mut self) -> &mut dyn AnyPlant {
         self.plant.as_mut()
     }
@@ -127,13 +127,13 @@ impl Instance {
         self.plant.hash()
     }
 
-    /// What a caller drives, in scene order.
+    /// The inputs, in scene order.
     #[must_use]
     pub fn inputs(&self) -> &[Input] {
         &self.inputs
     }
 
-    /// What it shows: the columns of a trace but the time.
+    /// The outputs: the columns of a trace except the time.
     #[must_use]
     pub fn outputs(&self) -> &[Output] {
         &self.outputs
@@ -169,7 +169,7 @@ impl Instance {
         InstanceError::Unknown { scene: self.scene.name.clone(), kind, name: name.into(), meant }
     }
 
-    /// Holds an input, one of [`Self::inputs`] by its place, until it is set again.
+    /// Holds an input, given by its index in [`Self::inputs`], until it is set again.
     ///
     /// # Errors
     /// [`InstanceError::Input`] where the value is not finite in the precision, [`InstanceError::Unknown`]
@@ -187,7 +187,7 @@ impl Instance {
         })
     }
 
-    /// What an input is held at; `None` where there is no such input.
+    /// The held value of an input; `None` if there is no such input.
     #[must_use]
     pub fn input_value(&self, input: usize) -> Option<f64> {
         let is_rate = self.inputs.get(input)?.is_rate;
@@ -210,11 +210,10 @@ impl Instance {
         Ok(self.scene.numbers()?)
     }
 
-    /// Sets parameters by their paths, and goes back to t = 0. Inputs keep what they are held at.
+    /// Sets parameters by path and resets to t = 0. Inputs keep their held values.
     ///
     /// # Errors
-    /// Where a path leads nowhere, a value is not finite, or the scene is refused with them; nothing is
-    /// changed then.
+    /// If a path is unknown, a value is not finite, or the scene is invalid with them; nothing is changed then.
     pub fn set_parameters<'p>(
         &mut self,
         parameters: impl IntoIterator<Item = (&'p str, f64)>,
@@ -235,7 +234,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Goes on by so many steps with held inputs.
+    /// Advances by the given number of steps with held inputs.
     ///
     /// # Errors
     /// [`InstanceError::Failed`] where a step fails or one has failed before.
@@ -251,7 +250,7 @@ impl Instance {
         }
     }
 
-    /// Goes on to a time, which is a whole number of steps within a hundredth of one.
+    /// Advances to a time that is a whole number of steps, within a hundredth of a step.
     ///
     /// # Errors
     /// [`InstanceError::Multiple`], [`InstanceError::Past`]; nothing is changed then. [`InstanceError::Failed`].
@@ -286,8 +285,8 @@ impl Instance {
         self.plant.reset();
     }
 
-    /// \[its unit\] an output now, of [`Self::outputs`] by its place; NaN where it is undefined or there is none
-    /// such.
+    /// \[its unit\] the present value of an output, given by its index in [`Self::outputs`]; NaN if it is undefined or
+    /// does not exist.
     #[must_use]
     pub fn value(&self, output: usize) -> f64 {
         let mut values = Vec::with_capacity(1);
@@ -304,8 +303,8 @@ impl Instance {
         values
     }
 
-    /// Appends some outputs as they are now, by their places in [`Self::outputs`]; each that is undefined or
-    /// not there is NaN. What is not asked for is not computed.
+    /// Appends the present values of some outputs, given by their indices in [`Self::outputs`]; NaN if undefined or
+    /// missing. Other outputs are not computed.
     pub fn values_of(&self, outputs: &[usize], values: &mut Vec<f64>) {
         let bodies = self.scene.body_names.len() * BODY_COLUMNS.len();
         let readings = bodies + ENERGY_COLUMNS.len();

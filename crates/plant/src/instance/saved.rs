@@ -1,7 +1,7 @@
 //! The state of an instance as bytes.
 //!
-//! `instance <=> bytes`: parameters that were set, then the kernel's snapshot, which holds bodies, turn counts,
-//! step and inputs; a checksum over all. Little-endian throughout.
+//! `instance <=> bytes`: parameters that were set, then the kernel's snapshot with bodies, revolution counts, step and
+//! inputs; a checksum over all. Little-endian throughout.
 
 use std::collections::BTreeMap;
 
@@ -16,8 +16,8 @@ const MAGIC: &[u8; 5] = b"dbdi\x01";
 const KERNEL: &[u8; 4] = b"DBDS";
 
 impl Instance {
-    /// The state, inputs and set parameters included, as bytes that an instance of the same scene and settings
-    /// takes up on any machine.
+    /// The state, including inputs and set parameters, as bytes that an instance of the same scene and settings can
+    /// restore on any machine.
     ///
     /// # Errors
     /// [`InstanceError::State`] where it has failed.
@@ -35,8 +35,8 @@ impl Instance {
         Ok(bytes)
     }
 
-    /// Goes on from a saved state, bit for bit; a failure is forgotten. A snapshot of the kernel's, such as a firmware
-    /// takes, is one, too: it holds no parameters, those of now must be those of then.
+    /// Continues from a saved state, bit for bit; clears a failure. Also accepts a snapshot of the kernel, such as a
+    /// firmware writes: it contains no parameters, so the present ones must match.
     ///
     /// # Errors
     /// [`InstanceError::State`] where the bytes are damaged or of another scene or other settings; nothing is

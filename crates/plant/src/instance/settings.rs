@@ -1,6 +1,6 @@
 //! Scheme, precision and step by name.
 //!
-//! `names => method; (method, scene) => step`. What is not said is what `host-sim run` takes.
+//! `names => method; (method, scene) => step`. Defaults are those of `host-sim run`.
 
 use crate::plan::step_of;
 use crate::{DampingName, Frequencies, Method, Named, PlanError, PrecisionName, SchemeName};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::instance::error::InstanceError;
 
-/// How a scene is stepped. What is `None` is the scene's, or ours.
+/// Settings of a run. `None` selects the scene's value or the default.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Settings {
@@ -28,10 +28,10 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The method that they name.
+    /// The method with these names.
     ///
     /// # Errors
-    /// A name that is none, or a combination that is no method.
+    /// For an unknown name or an invalid combination.
     pub fn method(&self) -> Result<Method, InstanceError> {
         let scheme = choice::<SchemeName>("scheme", self.scheme.as_deref())?.unwrap_or_default();
         let precision = choice("precision", self.precision.as_deref())?;
@@ -47,8 +47,8 @@ impl Settings {
         })
     }
 
-    /// \[s\] the step that a scene is stepped with: what is asked for, else the scene's, else the advised
-    /// one, shortened to fit its duration and sampling interval.
+    /// \[s\] the step of a scene: the requested one, else the scene's, else the advised one, shortened to fit duration
+    /// and sampling interval.
     ///
     /// # Errors
     /// Where no step fits these.

@@ -2,15 +2,15 @@
 //!
 //! `A => eigenvalues`, `(A, n) => basis and dual basis of the n eigenvalues of least modulus`. The matrix is
 //! balanced (Parlett & Reinsch 1969); eigenvalues come from its Schur form, whose iterations are bounded. The
-//! subspace comes from inverse iteration (Golub & Van Loan, section 7.3), which resolves slow motions beside
-//! fast ones better than the Schur form does.
+//! subspace comes from inverse iteration (Golub & Van Loan, section 7.3), which resolves slow motions in the presence
+//! of fast ones better than the Schur form.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, ComplexField as _, DMatrix, Schur};
 
 use crate::instance::error::InstanceError;
 
-/// The slowest motion left out is at least so many times as fast as the fastest kept one.
+/// Minimum ratio of the slowest omitted to the fastest kept motion.
 const GAP: f64 = 3.0;
 /// Rounds of inverse iteration. Each reduces the fast motions' part by a factor of 1.9 at least.
 const ROUNDS: usize = 40;
@@ -40,8 +40,8 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, InstanceE
     }
     let mut balanced = matrix.clone();
     balance_parlett_reinsch(&mut balanced);
-    // An entry below the diagonal is small beside its neighbours on the diagonal, which may be zero. A shift
-    // gives them a size, at the price of the eigenvalues' last digits.
+    // An entry below the diagonal is small relative to its diagonal neighbours, which may be zero. A shift makes them
+    // nonzero, at the cost of the eigenvalues' last digits.
     let size = balanced.norm();
     let found = [0.0, 1e-6 * size, size].into_iter().find_map(|shift| {
         let shifted = &balanced + DMatrix::identity(count, count) * shift;
@@ -51,7 +51,7 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, InstanceE
     });
     let mut values = found.ok_or_else(|| InstanceError::Linearisation {
         what: "the eigenvalues of this state cannot be computed".into(),
-        remedy: "another pose",
+        remedy: "use another pose",
     })?;
     let by_size = |a: &Complex<f64>, b: &Complex<f64>| {
         a.modulus().total_cmp(&b.modulus()).then(a.re.total_cmp(&b.re)).then(a.im.total_cmp(&b.im))
@@ -72,16 +72,16 @@ pub fn slowest(a: &DMatrix<f64>, count: usize) -> Result<Slow, InstanceError> {
     let [last, next] = [count - 1, count].map(|row| values[row].modulus());
     let no_gap = || InstanceError::Linearisation {
         what: format!(
-            "there are no {count} slow motions here: the next is as fast, {next:.3} rad/s after {last:.3} rad/s"
+            "the {count} slowest motions are not separated: the next has {next:.3} rad/s after {last:.3} rad/s"
         ),
-        remedy: "as many states as the mechanism has freedoms and their rates",
+        remedy: "give two states per degree of freedom of the mechanism: a position and its rate",
     };
     if next < GAP * last || next == 0.0 {
         return Err(no_gap());
     }
     // Units in which displacements and rates of the fast motions have the same size.
     let unit = |row: usize| if row < size / 2 { 1.0 } else { next };
-    // The pole is off the slow eigenvalues, which may be zero, and far from the fast ones.
+    // The pole is distinct from the slow eigenvalues, which may be zero, and far from the fast ones.
     let pole = if last > 1e-3 * next { -0.37 * last } else { -1e-2 * next };
     let shifted = DMatrix::from_fn(size, size, |row, column| {
         let on_diagonal = if row == column { pole } else { 0.0 };
@@ -154,6 +154,6 @@ mod tests {
             assert!((value.norm() - 2.0).abs() < 1e-6, "{value}");
         }
         let refused = slowest(&a, 1).unwrap_err();
-        assert!(refused.sentence().contains("no 1 slow motions"), "{refused}");
+        assert!(refused.sentence().contains("the 1 slowest motions"), "{refused}");
     }
 }

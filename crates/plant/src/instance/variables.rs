@@ -1,41 +1,41 @@
 //! Inputs and outputs, their names and units.
 //!
-//! `scene => inputs, outputs in order`. The outputs are the columns of a trace but the time.
+//! `scene => inputs, outputs in order`. The outputs are the columns of a trace except the time.
 
 use dbd_kernel::index::InputIndex;
 use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS, Scene};
 
-/// What a caller drives. Inputs that a table of the scene drives are none.
+/// An input set by the caller. Inputs driven by a table of the scene are excluded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Input {
-    /// Its name in the scene; that of the rate of an anchor or of a drive's place has `.rate` behind it.
+    /// Its name in the scene; the rate of an anchor or of a drive's position has the suffix `.rate`.
     pub name: String,
     /// The SI unit.
     pub unit: &'static str,
     /// Its type in the scene, `joint_torque`.
     pub kind: &'static str,
-    /// \[`unit`\] what it is at t = 0.
+    /// \[`unit`\] value at t = 0.
     pub start: f64,
-    /// \[`unit`\] the least and the largest value that it takes; infinite without bounds.
+    /// \[`unit`\] smallest and largest accepted value; infinite without bounds.
     pub range: [f64; 2],
-    /// In the model.
+    /// Index in the model.
     pub(crate) index: InputIndex,
     /// Whether it is the rate of the displacement, which dampers and servos follow.
     pub(crate) is_rate: bool,
 }
 
-/// What an instance shows.
+/// An output of an instance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
     /// The column's name in a trace.
     pub name: String,
     /// The SI unit; empty for a plain number.
     pub unit: &'static str,
-    /// What it is, in a few words.
+    /// Short description.
     pub description: String,
 }
 
-/// Columns of a body: what they are, and their units.
+/// Columns of a body: descriptions and units.
 const BODY: [(&str, &str); BODY_COLUMNS.len()] = [
     ("position of the centre of mass in the world, x", "m"),
     ("position of the centre of mass in the world, y", "m"),
@@ -52,11 +52,11 @@ const BODY: [(&str, &str); BODY_COLUMNS.len()] = [
     ("angular velocity in principal axes, z", "rad/s"),
 ];
 
-/// Likewise of the energies.
+/// Descriptions of the energies.
 const ENERGY: [&str; ENERGY_COLUMNS.len()] =
     ["kinetic energy", "potential energy, gravity and springs", "kinetic and potential energy"];
 
-/// The inputs of a scene that a caller drives, with what they are at t = 0.
+/// The inputs of a scene that a caller sets, with their values at t = 0.
 pub(crate) fn inputs(scene: &Scene, start: impl Fn(InputIndex) -> [f64; 2]) -> Vec<Input> {
     let mut inputs = Vec::new();
     for info in scene.inputs.iter().filter(|info| !info.table) {
@@ -83,7 +83,7 @@ pub(crate) fn inputs(scene: &Scene, start: impl Fn(InputIndex) -> [f64; 2]) -> V
     inputs
 }
 
-/// The outputs of a scene: bodies, energies, read-outs.
+/// The outputs of a scene: bodies, energies, sensors.
 pub(crate) fn outputs(scene: &Scene) -> Vec<Output> {
     let mut outputs = Vec::new();
     for body in &scene.body_names {
@@ -98,7 +98,7 @@ pub(crate) fn outputs(scene: &Scene) -> Vec<Output> {
     for readout in &scene.readouts {
         for (column, unit) in &readout.columns {
             let name = format!("{}{column}", readout.name);
-            let description = format!("read-out of the type {}", readout.kind);
+            let description = format!("sensor of type {}", readout.kind);
             outputs.push(Output { name, unit, description });
         }
     }

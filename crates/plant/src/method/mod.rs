@@ -1,8 +1,7 @@
-//! Methods: a scheme with its parameters, damping, precision and way of storing orientations.
+//! Methods: a scheme with its parameters, damping, precision and orientation representation.
 //!
-//! `(scheme, newton, damping, precision, orientation) => method`. Where the names become the
-//! kernel's types is [`plant`](mod@crate::plant). A further scheme or precision is one variant here
-//! and one arm there.
+//! `(scheme, newton, damping, precision, orientation) => method`. [`plant`](mod@crate::plant) maps them to the kernel's
+//! types. A new scheme or precision is one variant here and one match arm there.
 
 mod error;
 
@@ -18,10 +17,10 @@ use dbd_kernel::schemes::{
 
 use crate::names::{DampingName, Named as _, OrientationName, PrecisionName, SchemeName};
 
-/// Newton iterations that may be asked for: more change nothing but the stable step.
+/// Maximum number of Newton iterations: more only change the stable step.
 pub const MOST_ITERATIONS: u32 = 8;
 
-/// The largest ρ∞ that may be asked for.
+/// The largest valid ρ∞.
 pub const MOST_RHO: f64 = GeneralizedAlpha::MOST_RHO;
 
 /// A scheme with its parameters.
@@ -43,7 +42,7 @@ pub(crate) enum SchemeChoice {
     GeneralizedAlpha3(GeneralizedAlpha3),
 }
 
-/// A scheme with its parameters, in a precision, with a way of storing orientations.
+/// A scheme with its parameters, in a precision, with an orientation representation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
     pub(crate) scheme: SchemeChoice,
@@ -90,7 +89,7 @@ impl Method {
     /// The same method with another damping.
     ///
     /// # Errors
-    /// [`MethodError::Damping`] where the scheme has no such one.
+    /// [`MethodError::Damping`] if the scheme does not support it.
     pub fn with_damping(self, damping: DampingName) -> Result<Self, MethodError> {
         let scheme = match (self.scheme, damping) {
             (
@@ -136,8 +135,7 @@ impl Method {
         }
     }
 
-    /// The same method with another ρ∞, from 0 to 0.8: what is left per step of a vibration that the step does
-    /// not resolve.
+    /// The same method with another ρ∞, from 0 to 0.8: the amplitude factor per step of an unresolved vibration.
     ///
     /// # Errors
     /// [`MethodError::NoRho`] where the scheme has none, [`MethodError::Rho`].
@@ -158,7 +156,7 @@ impl Method {
         }
     }
 
-    /// The same method with another way of storing orientations.
+    /// The same method with another orientation representation.
     #[must_use]
     pub fn with_orientation(self, orientation: OrientationName) -> Self {
         Self { orientation, ..self }
@@ -187,13 +185,13 @@ impl Method {
         }
     }
 
-    /// How it stores orientations.
+    /// Its orientation representation.
     #[must_use]
     pub fn orientation(&self) -> OrientationName {
         self.orientation
     }
 
-    /// Whether this build holds it: micromath and Euler angles take the feature `comparison`.
+    /// Whether this build includes it: micromath and Euler angles require the feature `comparison`.
     ///
     /// # Errors
     /// [`MethodError::Comparison`] where it does not, [`MethodError::Orientation`] where no build does.
@@ -208,7 +206,7 @@ impl Method {
         }
     }
 
-    /// Whether its precision has interactions: those that exist for comparison alone have none.
+    /// Whether its precision supports interactions: those for comparison only do not.
     pub(crate) fn has_laws(&self) -> bool {
         let quaternions = self.orientation == OrientationName::Quaternion;
         quaternions && self.precision != PrecisionName::F32Micromath
@@ -219,7 +217,7 @@ impl Method {
         (self.traits().bears)(need)
     }
 
-    /// The refusal of a method that this build does not hold.
+    /// The error of a method that this build does not include.
     pub(crate) fn not_built(&self) -> MethodError {
         let quaternions = self.orientation == OrientationName::Quaternion;
         let what = match self.precision {
@@ -233,7 +231,7 @@ impl Method {
         MethodError::Comparison { what }
     }
 
-    /// What the scheme says of itself.
+    /// Properties of the scheme.
     fn traits(&self) -> Traits {
         match self.scheme {
             SchemeChoice::Dbd(scheme) => Traits::of(scheme),
@@ -253,13 +251,13 @@ impl Method {
         }
     }
 
-    /// How its dampers act.
+    /// Its damping mode.
     #[must_use]
     pub fn damping(&self) -> Damping {
         self.traits().damping
     }
 
-    /// How its dampers act, where that is not the scheme's own way.
+    /// Its damping mode, if it is not the scheme's default.
     #[must_use]
     pub fn foreign_damping(&self) -> Option<Damping> {
         let foreign = matches!(
@@ -278,7 +276,7 @@ impl Method {
         self.traits().stability_limit
     }
 
-    /// The largest `ω·h` that it bears with the bound of the highest frequency, where its matrix limits it.
+    /// The largest `ω·h` for the bound of the highest frequency, if its matrix limits it.
     #[must_use]
     pub fn most_vibration(&self) -> Option<f64> {
         let most = self.traits().most_vibration?;
@@ -301,7 +299,7 @@ impl Method {
         self.precision.name()
     }
 
-    /// How orientations are stored, e.g. `quaternion`.
+    /// The orientation representation, e.g. `quaternion`.
     #[must_use]
     pub fn orientation_name(&self) -> &'static str {
         self.orientation.name()
@@ -338,7 +336,7 @@ impl Default for Method {
     }
 }
 
-/// What a scheme says of itself.
+/// Properties of a scheme.
 struct Traits {
     name: &'static str,
     damping: Damping,

@@ -1,4 +1,4 @@
-//! What names and parameters make a method, and which ones are refused.
+//! Valid and invalid names and parameters of methods.
 
 use miette::Diagnostic as _;
 

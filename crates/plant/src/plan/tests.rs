@@ -1,4 +1,4 @@
-//! Plans of all kinds, and what is refused.
+//! Valid and rejected plans.
 
 use super::*;
 
@@ -166,7 +166,7 @@ fn about_five_hundred_samples() {
     assert_eq!(plan.samples(), 499);
 }
 
-/// Whatever is asked for is planned or refused, and what a refusal proposes is planned.
+/// Every request is planned or rejected, and the proposals of a rejection are valid.
 #[test]
 fn extreme_times_are_planned_or_refused_with_times_that_fit() {
     let times = [
@@ -210,7 +210,7 @@ fn extreme_times_are_planned_or_refused_with_times_that_fit() {
                 assert!(plan.steps >= 1 && plan.stride >= 1 && plan.step > 0.0, "{asked:?}");
                 assert!(plan.samples() <= MOST_SAMPLES, "{asked:?}");
             }
-            // Another refusal may be behind the first, but not the same once more.
+            // A second error may follow the first, but not the same one again.
             Err(PlanError::Multiple { steps, intervals, .. }) => {
                 let steps = steps.into_iter().map(|step| again(Some(step), None));
                 let intervals = intervals.into_iter().map(|every| again(None, Some(every)));

@@ -108,11 +108,11 @@ fn times_are_whole_numbers_of_steps_within_a_hundredth() {
     }
     assert_eq!(one.plant().steps(), 10_000);
     for (time, message) in [
-        (time + 0.5 * step, "is no whole number of steps of"),
-        (time - step, "cannot be gone to"),
-        (f64::NAN, "cannot be gone to"),
-        (f64::INFINITY, "cannot be gone to"),
-        (-1.0, "cannot be gone to"),
+        (time + 0.5 * step, "is not a whole number of steps of"),
+        (time - step, "cannot advance to"),
+        (f64::NAN, "cannot advance to"),
+        (f64::INFINITY, "cannot advance to"),
+        (-1.0, "cannot advance to"),
     ] {
         let error = one.advance_to(time).unwrap_err().sentence();
         assert!(error.contains(message), "{error}");

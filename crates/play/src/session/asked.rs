@@ -1,4 +1,4 @@
-//! What is asked of a session: a scene, how it is stepped, numbers given otherwise, a hand on a body.
+//! Request of a session: a scene, its settings, changed numbers, a hand on a body.
 
 use std::collections::BTreeMap;
 
@@ -6,19 +6,19 @@ use dbd_plant::instance::{Blueprint, Instance, InstanceError, Settings};
 
 use crate::refused::Refused;
 
-/// What was set, by path.
+/// Changed values by path.
 pub type Set = BTreeMap<String, f64>;
 
-/// A scene and how it is stepped.
+/// A scene and its settings.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Change {
-    /// What messages call the text.
+    /// Name of the text in messages.
     pub file: String,
     /// The scene in TOML.
     pub text: String,
-    /// Scheme, damping, precision, step; what is not said is the scene's, or `run`'s.
+    /// Scheme, damping, precision, step; the default is the scene's value or that of `run`.
     pub settings: Settings,
-    /// Numbers of the scene given otherwise, by their paths.
+    /// Changed numbers of the scene, by path.
     pub set: Set,
 }
 
@@ -26,8 +26,8 @@ impl Change {
     pub(super) fn instance(&self) -> Result<Instance, Refused> {
         if let Some((path, value)) = self.set.iter().find(|(_, value)| !value.is_finite()) {
             return Err(Refused::new(
-                format!("the parameter `{path}` cannot be {value:?}"),
-                "a finite number",
+                format!("the parameter `{path}` cannot be set to {value:?}"),
+                "give a finite number",
             ));
         }
         let changes = self.set.iter().map(|(path, value)| format!("{path}={value:?}"));
@@ -37,7 +37,7 @@ impl Change {
             changes: changes.collect(),
         };
         Instance::new(blueprint, self.settings.clone()).map_err(|error| {
-            // The place of an error in a change is not a place in the scene's text.
+            // The position of an error in a change is not a position in the scene's text.
             let in_text =
                 !matches!(&error, InstanceError::Scene(error) if error.file() != self.file);
             let refused = Refused::from(error);
@@ -51,10 +51,10 @@ impl Change {
 pub struct Grab {
     /// Its row.
     pub body: usize,
-    /// \[m\] the point that is held, body axes.
+    /// \[m\] the held point, body axes.
     pub point: [f64; 3],
-    /// \[m\] where it is pulled to, world.
+    /// \[m\] the target, world axes.
     pub target: [f64; 3],
-    /// \[1\] simulated time per time that is watched.
+    /// \[1\] simulated time per real time.
     pub speed: f64,
 }

@@ -1,6 +1,6 @@
-//! What of a running plant is kept when it is asked for otherwise.
+//! Changes of a running plant.
 //!
-//! `(old plant, new plant) => state carried over, or why not`.
+//! `(old plant, new plant) => transferred state, or reason`.
 
 use dbd_plant::instance::Instance;
 use dbd_scene::Scene;
@@ -10,9 +10,9 @@ use crate::session::asked::Change;
 use crate::session::live::Session;
 
 impl Session {
-    /// Takes what is asked for in place of what is. State, time and inputs go on where the scene's parts and its pose at
-    /// t = 0 stay the same: stiffness, damping, mass, gravity, scheme, precision and step change in mid-run. Else the run
-    /// restarts at t = 0; the reason is returned.
+    /// Applies a request. State, time and inputs are kept if the scene's parts and its pose at t = 0 are unchanged:
+    /// stiffness, damping, mass, gravity, scheme, precision and step may change during a run. Otherwise the run
+    /// restarts at t = 0 and the reason is returned.
     ///
     /// # Errors
     /// Where the scene or the settings are refused; nothing is changed then.
@@ -37,11 +37,11 @@ impl Session {
         }
     }
 
-    /// The other plant in this one's state.
+    /// Transfers this plant's state to the other one.
     fn carried(&self, mut other: Instance) -> Result<Instance, (Box<Instance>, String)> {
         let no = |other: Instance, why: &str| Err((Box::new(other), why.to_owned()));
         if self.trouble.is_some() {
-            return no(other, "the run had failed");
+            return no(other, "the previous run failed");
         }
         if let Some(why) = differs(self.instance.scene(), other.scene()) {
             return no(other, why);
@@ -52,14 +52,14 @@ impl Session {
             Ok(()) => Ok(other),
             Err(error) => {
                 other.reset();
-                let why = format!("the state does not go on: {error}");
+                let why = format!("the state cannot be continued: {error}");
                 Err((Box::new(other), why))
             }
         }
     }
 }
 
-/// Why a state of one scene does not fit another.
+/// Reason why a state of one scene does not fit another.
 fn differs(a: &Scene, b: &Scene) -> Option<&'static str> {
     let inputs =
         |scene: &Scene| scene.inputs.iter().map(|input| input.name.clone()).collect::<Vec<_>>();
@@ -75,10 +75,10 @@ fn differs(a: &Scene, b: &Scene) -> Option<&'static str> {
         return Some("it has other springs, interactions or inputs");
     }
     if a.model.initial != b.model.initial {
-        return Some("its pose at t = 0 is another");
+        return Some("its pose at t = 0 differs");
     }
     if a.model.points != b.model.points || a.model.groups != b.model.groups {
-        return Some("its points are elsewhere");
+        return Some("its points are at other positions");
     }
     None
 }

@@ -1,4 +1,4 @@
-//! What is seen of the plant at a moment, as numbers in a row.
+//! Visible values of the plant at one time, as an array of numbers.
 //!
 //! `state => time, energies, hash, poses, forces, outputs`. A page reads them at the offsets of [`Layout`].
 
@@ -7,11 +7,11 @@ use serde::Serialize;
 
 use crate::session::live::Session;
 
-/// Numbers before the poses: time \[s\], steps, whether it failed, kinetic, potential and total energy \[J\], the upper and
-/// the lower half of the state's hash, energy at t = 0 \[J\], work of the hand \[J\].
+/// Numbers before the poses: time \[s\], steps, whether it failed, kinetic, potential and total energy \[J\], the upper
+/// and the lower half of the state's hash, energy at t = 0 \[J\], work of the hand \[J\].
 pub const STATUS: usize = 10;
 
-/// Where a frame has what.
+/// Offsets of the parts of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Layout {
@@ -21,18 +21,18 @@ pub struct Layout {
     pub springs: usize,
     /// Per joint \[N\] the force on its second body and \[m\] the largest extension of its elements.
     pub joints: usize,
-    /// \[N\] tensions of the joints' springs; none where they are too many to be drawn.
+    /// \[N\] tensions of the joints' springs; none if there are too many to draw.
     pub joint_springs: usize,
     /// \[N, N·m, m\] values of the mechanism's forces.
     pub forces: usize,
-    /// The outputs that are watched.
+    /// The displayed outputs.
     pub watched: usize,
-    /// How many there are.
+    /// Their number.
     pub length: usize,
 }
 
 impl Session {
-    /// Where a frame has what.
+    /// Offsets of the parts of a frame.
     #[must_use]
     pub fn layout(&self) -> Layout {
         let mechanism = &self.mechanism;
@@ -47,11 +47,11 @@ impl Session {
         Layout { poses, springs, joints, joint_springs, forces, watched, length }
     }
 
-    /// The present frame. What is undefined is NaN.
+    /// The present frame. Undefined values are NaN.
     pub fn frame(&mut self) -> &[f64] {
         let layout = self.layout();
         let state = self.instance.plant().state();
-        // Its extensions are wanted, not what it thinks of them.
+        // Only its extensions are needed, not its verdict.
         let energy = match self.judge.judge(&state) {
             Ok(verdict) => verdict.energy,
             Err(_) => self.instance.plant().energy(),

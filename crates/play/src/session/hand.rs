@@ -1,8 +1,8 @@
 //! A hand at a body: a damped spring between a point of it and a point of the world.
 //!
-//! `(point, target, speed) => impulse per step`. The impulse is given between two steps, so the model stays as it is and
-//! every scheme bears it. The spring pulls the whole mechanism to the target within about a second of watching,
-//! however slowly the page shows it; a body much lighter than the mechanism gets no more than its steps bear.
+//! `(point, target, speed) => impulse per step`. The impulse is given between two steps, so the model is unchanged and
+//! every scheme supports it. The spring pulls the whole mechanism to the target within about one second of real time,
+//! at any playback speed; for a body much lighter than the mechanism the impulse is limited for stability.
 
 use dbd_kernel::{BodyState, Quaternion, Vec3};
 use dbd_scene::Planar;
@@ -11,15 +11,15 @@ use crate::refused::Refused;
 use crate::session::asked::Grab;
 use crate::session::live::Session;
 
-/// \[1/s\] how fast a mechanism follows the hand, in time that is watched.
+/// \[1/s\] rate at which a mechanism follows the hand, in real time.
 const FOLLOWS: f64 = 8.0;
-/// \[1\] what a step may take of the distance, and of the rate, of the body's own.
+/// \[1\] largest fraction of the body's distance and rate that a step may remove.
 const MOST_SHARE: f64 = 0.05;
 /// \[1\] damping ratio.
 const RATIO: f64 = 0.7;
 
 impl Session {
-    /// Lays a hand on a body, or moves the target of the hand that lies there; `None` lets go.
+    /// Attaches the hand to a body, or moves its target; `None` releases it.
     ///
     /// # Errors
     /// Where there is no such body or a number is not finite; nothing is changed then.
@@ -35,8 +35,8 @@ impl Session {
             let numbers = point.iter().chain(&target).chain([&speed]);
             if !numbers.copied().all(f64::is_finite) || speed <= 0.0 {
                 return Err(Refused::new(
-                    "a hand needs finite numbers",
-                    "a point, a target, a speed above 0",
+                    "the hand has a value that is not finite",
+                    "give a finite point and target, and a speed above 0",
                 ));
             }
         }
@@ -44,7 +44,7 @@ impl Session {
         Ok(())
     }
 
-    /// Pulls for some of the coming steps, at most `steps`; for how many.
+    /// Pulls for some of the coming steps, at most `steps`; returns their number.
     pub(super) fn pull(&mut self, steps: u64) -> u64 {
         let Some(Grab { body: row, point, target, speed }) = self.grab else { return steps };
         let plant = self.instance.plant();
@@ -53,7 +53,7 @@ impl Session {
         let whole: f64 = model.bodies.iter().map(|body| body.mass).sum();
         let rate = FOLLOWS / speed;
         let step = plant.step_size();
-        // Often enough for the whole, at every step for what is fast.
+        // Often enough for the whole mechanism; at every step for fast bodies.
         let count = ((MOST_SHARE / (rate * step)) as u64).clamp(1, steps.min(64));
         let time = count as f64 * step;
         let stiffness = (whole * rate * rate).min(MOST_SHARE * body.mass / (time * time));
@@ -86,7 +86,7 @@ impl Session {
     }
 }
 
-/// The state without what leaves the plane.
+/// The state projected onto the plane.
 fn flat(
     planar: &Planar,
     row: usize,

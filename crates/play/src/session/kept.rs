@@ -1,10 +1,10 @@
-//! Moments that a session keeps.
+//! Saved states of a session.
 
 use std::collections::VecDeque;
 
 use crate::session::asked::Change;
 
-/// A state that was kept.
+/// A saved state.
 #[derive(Clone, Debug)]
 pub(super) struct Mark {
     pub(super) time: f64,
@@ -15,6 +15,6 @@ pub(super) struct Mark {
     pub(super) inputs_set: usize,
 }
 
-/// Those that are kept, the oldest first.
+/// Saved states, the oldest first.
 #[derive(Clone, Debug, Default)]
 pub struct Marks(pub(super) VecDeque<Mark>);

@@ -1,4 +1,4 @@
-//! A plant that goes on by steps, and all that a live view of it keeps.
+//! A running plant and the state of its live view.
 
 use dbd_kernel::Status;
 use dbd_plant::failure::Remedy;
@@ -14,28 +14,28 @@ use crate::refused::Refused;
 use crate::session::asked::{Change, Grab};
 use crate::session::kept::Marks;
 
-/// More bytes of text than this are refused.
+/// Maximum length of a scene's text in bytes.
 pub const MOST_TEXT: usize = 10_000_000;
 
-/// A scene's plant and all that a live view of it keeps.
+/// A scene's plant and the state of its live view.
 pub struct Session {
     pub(super) instance: Instance,
-    /// The scene's text, its file's name, what was chosen and changed.
+    /// The scene's text, its file's name, settings and changes.
     pub(super) asked: Change,
     pub(super) plan: Plan,
     pub(super) judge: Judge,
     pub(super) loading: Loading,
     pub(super) mechanism: Mechanism,
-    /// Whether anything acted on the plant that the scene does not know: its energy then proves nothing.
+    /// Whether anything outside the scene acted on the plant: its energy balance is then not meaningful.
     pub(super) disturbed: bool,
     pub(super) trouble: Option<Trouble>,
     pub(super) grab: Option<Grab>,
-    /// \[J\] what the hand put in.
+    /// \[J\] work of the hand.
     pub(super) work: f64,
     /// \[J\] at the start.
     pub(super) energy_at_start: f64,
     pub(super) marks: Marks,
-    /// What inputs were set to: \[s\] when, which, to what.
+    /// Recorded inputs: time \[s\], input, value.
     pub(super) inputs_set: Vec<(f64, usize, f64)>,
     pub(super) watched: Vec<usize>,
     pub(super) frame: Vec<f64>,
@@ -45,12 +45,12 @@ impl Session {
     /// A session of a scene at t = 0.
     ///
     /// # Errors
-    /// Where the scene or the settings are refused, in the words of the command line.
+    /// If the scene or the settings are invalid, with the messages of the command line.
     pub fn open(asked: Change) -> Result<Self, Refused> {
         if asked.text.len() > MOST_TEXT {
             return Err(Refused::new(
-                format!("a text of {} bytes is more than the page takes", asked.text.len()),
-                format!("at most {MOST_TEXT} bytes; host-sim run takes more"),
+                format!("the text of {} bytes is too long for the page", asked.text.len()),
+                format!("use at most {MOST_TEXT} bytes; host-sim run accepts more"),
             ));
         }
         let instance = asked.instance()?;
@@ -89,13 +89,13 @@ impl Session {
         &self.instance
     }
 
-    /// Whether a step failed; nothing moves then before [`Self::reset`], [`Self::rewind`] or a change.
+    /// Whether a step failed; the plant then stops until [`Self::reset`], [`Self::rewind`] or a change.
     #[must_use]
     pub fn has_failed(&self) -> bool {
         self.trouble.is_some()
     }
 
-    /// Goes on by so many steps, or to the one that fails; how many were done.
+    /// Advances by the given number of steps, or up to a failing one; returns the number done.
     pub fn advance(&mut self, steps: u64) -> u64 {
         let start = self.instance.plant().steps();
         let end = start + steps;
@@ -104,7 +104,7 @@ impl Session {
             if done == end {
                 break;
             }
-            // Where `run` looks at its plant.
+            // Same checks as in `run`.
             let stride = self.plan.unseen();
             let mut next = end.min((done / stride + 1) * stride);
             if self.grab.is_some() {
@@ -119,7 +119,7 @@ impl Session {
         self.instance.plant().steps() - start
     }
 
-    /// Looks at the state as `run` does.
+    /// Checks the state as `run` does.
     fn look(&mut self) {
         let state = self.instance.plant().state();
         self.trouble = match self.judge.judge(&state) {
@@ -132,7 +132,7 @@ impl Session {
     /// Holds an input, one of [`Instance::inputs`], until it is set again.
     ///
     /// # Errors
-    /// Where there is no such input or it does not take the value.
+    /// If there is no such input or the value is invalid.
     pub fn set_input(&mut self, row: usize, value: f64) -> Result<(), Refused> {
         self.instance.set_input(row, value)?;
         self.disturbed = true;
@@ -140,13 +140,13 @@ impl Session {
         Ok(())
     }
 
-    /// Goes back to t = 0; inputs have their first values.
+    /// Resets to t = 0 with the initial inputs.
     pub fn reset(&mut self) {
         self.instance.reset();
         self.begin();
     }
 
-    /// From here on the run is one of its own.
+    /// Starts a new run from the present state.
     fn begin(&mut self) {
         let (scene, plant) = (self.instance.scene(), self.instance.plant());
         self.judge = Judge::new(scene, plant);
@@ -156,7 +156,7 @@ impl Session {
         self.inputs_set.clear();
     }
 
-    /// Outputs whose values every frame ends with, by their places in [`Instance::outputs`].
+    /// Sets the outputs at the end of every frame, by their indices in [`Instance::outputs`].
     ///
     /// # Errors
     /// Where there is no such output.
@@ -172,8 +172,8 @@ impl Session {
         Ok(())
     }
 
-    /// Why it failed and what helps, in the words of `run`; `None` where it has not failed. What helps is looked for,
-    /// which may take seconds, where nothing but the scene acted on the plant.
+    /// Failure and remedy with the messages of `run`; `None` if it has not failed. The search for a remedy may take
+    /// seconds; it is made only if nothing outside the scene acted on the plant.
     #[must_use]
     pub fn diagnose(&self) -> Option<(String, String)> {
         let trouble = self.trouble?;
@@ -188,21 +188,22 @@ impl Session {
         };
         let advice = match run.remedy {
             Remedy::Unsought => {
-                "a shorter step or softer changes; reset, or go back to a moment before".to_owned()
+                "use a shorter step or smaller changes; reset, or go back to an earlier moment"
+                    .to_owned()
             }
             _ => run.advice(),
         };
         Some((run.to_string(), advice))
     }
 
-    /// The scene's text, and the options of `host-sim run` that give what was changed on the page.
+    /// The scene's text, and the options of `host-sim run` for the changes on the page.
     #[must_use]
     pub fn scene_text(&self) -> (&str, String) {
         let set = self.asked.set.iter().map(|(path, value)| format!(" --set '{path}={value:?}'"));
         (&self.asked.text, set.collect())
     }
 
-    /// What was asked for.
+    /// The request.
     #[must_use]
     pub fn asked(&self) -> &Change {
         &self.asked
@@ -214,7 +215,7 @@ fn planned(instance: &Instance) -> Plan {
     let scene = instance.scene();
     let step = StepRequest::Given(instance.step_size());
     let request = |every| Request { step, duration: scene.duration, every };
-    // A step of the user's own need not divide the duration.
+    // A user-defined step need not divide the duration.
     let near = |_| {
         let steps = (scene.duration / instance.step_size()).ceil().max(1.0);
         Plan {
@@ -227,7 +228,7 @@ fn planned(instance: &Instance) -> Plan {
     plan(&request(scene.every)).unwrap_or_else(near)
 }
 
-/// The first output of a scene that is a read-out.
+/// The first output of a scene that is a sensor.
 pub(super) fn readouts(scene: &Scene) -> usize {
     scene.body_names.len() * dbd_scene::BODY_COLUMNS.len() + dbd_scene::ENERGY_COLUMNS.len()
 }

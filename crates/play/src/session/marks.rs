@@ -1,4 +1,4 @@
-//! A ring of states to go back to.
+//! A ring buffer of states for going back.
 //!
 //! `(state, settings, changes) => mark; mark => session as it was`.
 
@@ -6,14 +6,14 @@ use crate::refused::Refused;
 use crate::session::kept::Mark;
 use crate::session::live::Session;
 
-/// Marks that are kept; the oldest goes first.
+/// Maximum number of marks; the oldest is dropped first.
 pub const MOST_MARKS: usize = 600;
-/// \[byte\] all of them together, at least two.
+/// \[byte\] total size, at least two marks.
 const MOST_BYTES: usize = 64_000_000;
 
 impl Session {
-    /// Keeps the present state; how many are kept, and \[s\] the times of the oldest and the newest. A failed state is not
-    /// kept.
+    /// Saves the present state; returns the number of marks and \[s\] the times of the oldest and the newest. A failed
+    /// state is not saved.
     pub fn mark(&mut self) -> (usize, [f64; 2]) {
         if let Ok(snapshot) = self.instance.plant().snapshot() {
             let newest = self.marks.0.back().map(|mark| mark.time);
@@ -38,8 +38,7 @@ impl Session {
         (self.marks.0.len(), [time(self.marks.0.front()), time(self.marks.0.back())])
     }
 
-    /// Goes back to a mark, 0 the oldest, with the settings and numbers of then; later ones are dropped. A failure is
-    /// forgotten.
+    /// Goes back to a mark, 0 the oldest, with its settings and numbers; drops later ones and clears a failure.
     ///
     /// # Errors
     /// Where there is no such mark.
@@ -48,7 +47,7 @@ impl Session {
         let Some(kept) = self.marks.0.get(mark).cloned() else {
             return Err(Refused::new(
                 format!("there is no mark {mark}"),
-                format!("{count} are kept"),
+                format!("there are {count} marks"),
             ));
         };
         if kept.asked != self.asked {
@@ -68,7 +67,7 @@ impl Session {
         Ok(())
     }
 
-    /// The state as `Plant::restore` of firmware, `dbd.Plant.restore` of Python and [`Self::restore`] take it.
+    /// The state as `Plant::restore` of firmware, `dbd.Plant.restore` of Python and [`Self::restore`] accept it.
     ///
     /// # Errors
     /// Where the plant has failed.
@@ -78,13 +77,13 @@ impl Session {
         self.instance.plant().snapshot().map_err(failed)
     }
 
-    /// Goes on from a state that was saved, on whatever machine.
+    /// Continues from a saved state of any machine.
     ///
     /// # Errors
     /// Where it is of another scene, scheme, precision or step; nothing is changed then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Refused> {
         self.instance.restore(bytes)?;
-        // What inputs were set to before belongs to another run.
+        // Recorded inputs belong to the previous run.
         self.inputs_set.clear();
         (self.disturbed, self.trouble, self.grab) = (true, None, None);
         Ok(())

@@ -1,4 +1,4 @@
-//! What a page needs to know of a session: names, units, choices, what is drawn.
+//! Description of a session for its page: names, units, choices, geometry.
 //!
 //! `session => description`.
 
@@ -13,15 +13,15 @@ use crate::session::asked::Set;
 use crate::session::frame::Layout;
 use crate::session::live::{Session, readouts};
 
-/// Most numbers of a scene that are listed; the others are only in the text.
+/// Maximum number of listed numbers of a scene; the others are only in the text.
 const MOST_NUMBERS: usize = 20_000;
 
-/// What a page shows of a session beside its frames.
+/// Content of a page in addition to its frames.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Opened {
     /// The scene's name.
     pub name: String,
-    /// What it is.
+    /// Description.
     pub description: String,
     /// \[s\] how long `run` simulates it.
     pub duration: f64,
@@ -35,35 +35,35 @@ pub struct Opened {
     pub damping: &'static str,
     /// The precision's.
     pub precision: &'static str,
-    /// Whether it is stepped in a plane.
+    /// Whether it is stepped in its plane.
     pub planar: bool,
-    /// What is drawn, as a report has it.
+    /// The drawn mechanism, as in a report.
     pub run: Run,
-    /// Points whose paths are worth a look.
+    /// Points with a drawn path.
     pub traces: Vec<Trace>,
-    /// What a caller drives.
+    /// The inputs.
     pub inputs: Vec<Handle>,
-    /// What it shows.
+    /// The outputs.
     pub outputs: Vec<Shown>,
-    /// The first output that is a read-out.
+    /// The first output that is a sensor.
     pub readouts: usize,
     /// All numbers of the scene.
     pub numbers: Vec<Number>,
     /// Its named parameters.
     pub parameters: Vec<Number>,
-    /// How many numbers are not listed.
+    /// Number of unlisted numbers.
     pub numbers_left_out: usize,
-    /// What is probably not meant.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// \[s\] the longest step that is stable at t = 0; `None` where any is.
     pub limit: Option<f64>,
     /// The same run on the command line.
     pub command: String,
-    /// What may be chosen.
+    /// Available choices.
     pub choices: Choices,
-    /// Where a frame has what.
+    /// Offsets of the parts of a frame.
     pub layout: Layout,
-    /// What was changed of the scene, by path.
+    /// Changes of the scene, by path.
     pub set: Set,
 }
 
@@ -76,9 +76,9 @@ pub struct Handle {
     pub unit: &'static str,
     /// Its type.
     pub kind: &'static str,
-    /// \[`unit`\] what it is held at.
+    /// \[`unit`\] its held value.
     pub value: Option<f64>,
-    /// Its place among the inputs.
+    /// Its index among the inputs.
     pub row: usize,
 }
 
@@ -89,16 +89,16 @@ pub struct Shown {
     pub name: String,
     /// Its SI unit.
     pub unit: &'static str,
-    /// What it is.
+    /// Description.
     pub description: String,
 }
 
 /// A number of the scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Number {
-    /// Where it is.
+    /// Its path.
     pub path: String,
-    /// \[`unit`\] what it is.
+    /// \[`unit`\] its value.
     pub value: f64,
     /// Its SI unit.
     pub unit: String,
@@ -107,7 +107,7 @@ pub struct Number {
 /// Methods by name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Choices {
-    /// Schemes, each with its dampings, its own first.
+    /// Schemes, each with its damping modes, the default first.
     pub schemes: Vec<Scheme>,
     /// Precisions.
     pub precisions: Vec<&'static str>,
@@ -118,12 +118,12 @@ pub struct Choices {
 pub struct Scheme {
     /// Its name.
     pub name: &'static str,
-    /// Ways of damping.
+    /// Damping modes.
     pub dampings: Vec<&'static str>,
 }
 
 impl Session {
-    /// What a page shows beside frames.
+    /// Content of the page in addition to frames.
     #[must_use]
     pub fn opened(&self) -> Opened {
         let instance = &self.instance;

@@ -1,4 +1,4 @@
-//! The scene with what inputs were set to as tables: the same run again, without a hand on it.
+//! The scene with the recorded inputs as tables: repeats the run, without the hand.
 //!
 //! `(scene's text, times and values) => scene's text`.
 
@@ -7,15 +7,15 @@ use std::fmt::Write as _;
 use crate::session::live::Session;
 
 impl Session {
-    /// The scene with a table in place of the value of each input that was set. Inputs that the text does not write as a
-    /// `[[input]]` table of their own stand as comments at its end.
+    /// The scene with a table in place of the value of each input that was set. Inputs without a separate `[[input]]`
+    /// table in the text are appended as comments.
     #[must_use]
     pub fn replay(&self) -> String {
         let mut text = self.asked.text.clone();
         for (row, input) in self.instance.inputs().iter().enumerate() {
             let set = self.inputs_set.iter().filter(|(_, of, _)| *of == row);
             let knots: Vec<(f64, f64)> = set.map(|(time, _, value)| (*time, *value)).collect();
-            // A rate has no table of its own.
+            // A rate has no separate table.
             if knots.is_empty() || input.name.ends_with(".rate") {
                 continue;
             }
@@ -87,7 +87,7 @@ fn placed(text: &str, name: &str, table: &str) -> Option<String> {
     }
 }
 
-/// The text of a string of TOML without escapes, what follows it left out.
+/// The content of a TOML string without escapes; ignores trailing text.
 fn unquoted(value: &str) -> Option<&str> {
     let quote = value.chars().next().filter(|first| matches!(first, '"' | '\''))?;
     value[1..].split(quote).next()

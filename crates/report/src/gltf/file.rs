@@ -13,7 +13,7 @@ use gltf::json::{Accessor, Animation, Buffer, Index, Material, Mesh, Node, Root,
 
 use super::solids::Solids;
 
-/// What is written so far.
+/// The written content.
 #[derive(Default)]
 pub(super) struct File {
     root: Root,
@@ -22,7 +22,7 @@ pub(super) struct File {
     samplers: Vec<Sampler>,
 }
 
-/// What a channel moves.
+/// Target of a channel.
 pub(super) enum Moves {
     /// \[m\].
     Translation(Vec<[f32; 3]>),
@@ -122,7 +122,7 @@ impl File {
         })
     }
 
-    /// A mesh of solids; `None` where there are none.
+    /// A mesh of solids; `None` if there are none.
     pub(super) fn mesh(
         &mut self,
         name: &str,
@@ -199,7 +199,7 @@ impl File {
     /// The file, with one scene of one node.
     ///
     /// # Errors
-    /// Where it is larger than 4 GiB, which its format cannot say.
+    /// If it is larger than 4 GiB, the limit of the format.
     pub(super) fn glb(mut self, name: &str, top: Index<Node>) -> std::io::Result<Vec<u8>> {
         if !self.channels.is_empty() {
             let (channels, samplers) = (self.channels, self.samplers);

@@ -1,6 +1,6 @@
-//! Which solids stand for bodies, joints and the ground.
+//! Solids that represent bodies, joints and the ground.
 //!
-//! `(mechanism, size) => solids in the axes of each node`. Widths are shares of the mechanism's size.
+//! `(mechanism, size) => solids in the axes of each node`. Widths are fractions of the mechanism's size.
 
 use std::cmp::Ordering;
 
@@ -12,7 +12,7 @@ use gltf::json::{Index, Material};
 use super::file::File;
 use super::solids::Solids;
 
-/// Widths as shares of the mechanism's size.
+/// Widths as fractions of the mechanism's size.
 const BAR: f64 = 0.012;
 const THIN: f64 = 0.006;
 const JOINT: f64 = 0.02;
@@ -97,7 +97,7 @@ fn bytes(colour: &str) -> Option<[u8; 3]> {
     Some([red, green, blue])
 }
 
-/// What a body without geometry looks like.
+/// Appearance of a body without geometry.
 pub(super) fn outline(outline: &Outline, look: &Look) -> Solids {
     let mut solids = Solids::default();
     match outline {
@@ -117,7 +117,7 @@ pub(super) fn outline(outline: &Outline, look: &Look) -> Solids {
     solids
 }
 
-/// What stands for joints, on each body.
+/// Symbols of joints, on each body.
 pub(super) fn joints(mechanism: &Mechanism, look: &Look) -> Vec<Solids> {
     let mut solids = vec![Solids::default(); mechanism.bodies.len()];
     for joint in &mechanism.joints {
@@ -161,7 +161,7 @@ fn mark(solids: &mut Solids, mechanism: &Mechanism, joint: &JointMark, at: &Plac
     }
 }
 
-/// What stands for the ground: where joints and elements hold on to it.
+/// Symbols of the ground, at the attachments of joints and elements.
 pub(super) fn ground(mechanism: &Mechanism, look: &Look) -> Solids {
     let mut solids = Solids::default();
     let joints = mechanism.joints.iter().flat_map(|joint| &joint.places);

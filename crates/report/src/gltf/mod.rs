@@ -1,8 +1,8 @@
 //! The animation as glTF 2.0 (GLB): one file that programs for models open.
 //!
-//! `(mechanism, frames) => GLB`. A node for each body with the solids that stand for it, in metres and in
-//! the body's axes from its centre of mass; channels turn and move it as the film does. glTF's y axis
-//! is up: a node above all turns the scene so that gravity points down, and leaves it where there is none.
+//! `(mechanism, frames) => GLB`. A node for each body with its solids, in metres and in the body's axes from its centre
+//! of mass; channels move it as in the film. glTF's y axis is up: a root node rotates the scene so that gravity points
+//! down; without gravity it is unchanged.
 
 mod file;
 mod marks;
@@ -136,7 +136,7 @@ fn springs(file: &mut File, mechanism: &Mechanism, look: &Look, first: &Frame) -
     nodes.collect()
 }
 
-/// Where a rod of length 1 along z lies between two places.
+/// Transform of a rod of length 1 along z between two points.
 struct Line {
     at: [f32; 3],
     turn: [f64; 4],
@@ -163,7 +163,7 @@ impl Line {
     }
 }
 
-/// The shortest turn, scalar first, from a unit vector to the direction of another vector.
+/// The shortest rotation, scalar first, from a unit vector to the direction of another vector.
 fn between(from: Vec3<f64>, to: Vec3<f64>) -> [f64; 4] {
     let length = to.dot(to).sqrt();
     if length <= 0.0 || !length.is_finite() {
@@ -171,21 +171,21 @@ fn between(from: Vec3<f64>, to: Vec3<f64>) -> [f64; 4] {
     }
     let to = to * (1.0 / length);
     let cosine = from.dot(to);
-    // Half a turn is about any axis that is across.
+    // A rotation by 180° is about any perpendicular axis.
     let axis = if cosine < -1.0 + 1e-12 { from.normals()[0] } else { from.cross(to) };
     let scalar = if cosine < -1.0 + 1e-12 { 0.0 } else { 1.0 + cosine };
     let size = (scalar * scalar + axis.dot(axis)).sqrt();
     [scalar, axis.x, axis.y, axis.z].map(|part| part / size)
 }
 
-/// The turn that brings what is up to y.
+/// The rotation from the up direction to y.
 fn upright(gravity: Option<[f64; 3]>) -> [f64; 4] {
     let down = Vec3::from_f64(gravity.unwrap_or([0.0, -1.0, 0.0]));
     let [w, x, y, z] = between(Vec3::new(0.0, 1.0, 0.0), -down);
     [w, -x, -y, -z]
 }
 
-/// Orientations as unit quaternions, scalar last, each the nearer of the two to the one before.
+/// Orientations as unit quaternions, scalar last, each with the sign nearer to the previous one.
 fn rotations(orientations: impl Iterator<Item = [f64; 4]>) -> Vec<[f32; 4]> {
     let mut last = [0.0; 4];
     let rotation = |orientation: [f64; 4]| {

@@ -4,7 +4,7 @@
 
 use dbd_kernel::{Quaternion, Vec3};
 
-/// Sides of what is round.
+/// Sides of round solids.
 const ROUND: usize = 16;
 /// Rings of a ball from pole to pole.
 const RINGS: usize = 8;
@@ -44,7 +44,7 @@ impl Solids {
         self.add_turned_box(at, Quaternion::IDENTITY, half);
     }
 
-    /// A box that a unit quaternion turns from the axes.
+    /// A box rotated from the axes by a unit quaternion.
     pub(super) fn add_turned_box(&mut self, at: Vector, turn: Quaternion<f64>, half: [f64; 3]) {
         let rotation = turn.rotation();
         for axis in 0..3 {
@@ -68,7 +68,7 @@ impl Solids {
         self.add_prism(from, to, radius, ROUND);
     }
 
-    /// A bar with so many sides; what is as good as no bar is a ball.
+    /// A bar with the given number of sides; a ball if it is too short.
     pub(super) fn add_prism(&mut self, from: Vector, to: Vector, radius: f64, sides: usize) {
         let way = to - from;
         if way.dot(way).sqrt() < 1e-6 * radius {
@@ -90,7 +90,7 @@ impl Solids {
                 self.corner(to + b * radius, nb),
                 self.corner(to + a * radius, na),
             ];
-            // Which way round is out is the normals' choice.
+            // The normals define the outside.
             let outward = u.cross(v).dot(along) > 0.0;
             let order = if outward { [0, 1, 2, 0, 2, 3] } else { [0, 2, 1, 0, 3, 2] };
             self.triangles.extend(order.map(|corner| rows[corner]));
@@ -130,8 +130,8 @@ impl Solids {
         }
     }
 
-    /// What holds points together: the faces of their hull, both sides of them where they lie in a
-    /// plane, and a bar along each edge; of many points bars from their middle.
+    /// A solid that connects points: the faces of their hull, two-sided if they lie in a plane, and a bar along each
+    /// edge; for many points bars from their centre.
     pub(super) fn add_plate(&mut self, points: &[Vector], radius: f64) {
         points.iter().for_each(|point| self.add_ball(*point, radius));
         let share = 1.0 / points.len().max(1) as f64;
@@ -198,7 +198,7 @@ mod tests {
         let at = |row: &u32| Vector::from_f64(solids.positions[*row as usize].map(f64::from));
         let parts = solids.triangles.chunks(3).map(|rows| {
             let [a, b, c] = [at(&rows[0]), at(&rows[1]), at(&rows[2])];
-            // Every triangle looks where its normals do.
+            // Every triangle is oriented like its normals.
             let normal = Vec3::from_f64(solids.normals[rows[0] as usize].map(f64::from));
             assert!((b - a).cross(c - a).dot(normal) > 0.0);
             a.dot(b.cross(c)) / 6.0

@@ -1,16 +1,15 @@
-//! Drawings on dark paper: a style sheet within the SVG, which follows the reader's screen, or what
-//! the root of a page says: `data-theme="light"` or `"dark"`.
+//! Drawings on dark paper: a style sheet within the SVG, which follows the reader's screen, or the root of a page:
+//! `data-theme="light"` or `"dark"`.
 //!
-//! `SVG in light colours => the same SVG with what its colours become in the dark`. Rules go by the
-//! colours as they are written in `fill` and `stroke`, so drawing code knows of one set only; whoever
-//! reads no style sheet sees the light one.
+//! `SVG in light colours => the same SVG with rules for dark colours`. Rules select the colours in `fill` and `stroke`,
+//! so drawing code uses one set only; readers without style sheets see the light one.
 
 use std::fmt::Write as _;
 
 /// The class of a drawing's root: rules reach no other drawing of a page.
 pub const CLASS: &str = "drawing";
 
-/// Each colour of drawings and what it is in the dark. Paper, ink and lines first, then curves (Okabe &
+/// Light and dark colours of drawings. Paper, ink and lines first, then curves (Okabe &
 /// Ito 2008), then the same as text.
 pub const PAIRS: [(&str, &str); 30] = [
     ("#fff", "#161a20"),
@@ -45,7 +44,7 @@ pub const PAIRS: [(&str, &str); 30] = [
     ("#ffffff", "#161a20"),
 ];
 
-/// The drawing with the rules of the colours that it has. What is no SVG is given back as it is.
+/// The drawing with the rules of its colours. Other text is returned unchanged.
 #[must_use]
 pub fn adapted(svg: &str) -> String {
     let Some((root, rest)) = svg.split_once('>').filter(|(root, _)| root.starts_with("<svg "))
@@ -71,7 +70,7 @@ pub fn adapted(svg: &str) -> String {
     )
 }
 
-/// Colours of a drawing's `fill` and `stroke` that have no other in the dark: for tests of what draws.
+/// Colours of a drawing's `fill` and `stroke` without a dark colour, for tests.
 #[must_use]
 pub fn unpaired(svg: &str) -> Vec<String> {
     let after = |property: &str| {

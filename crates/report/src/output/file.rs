@@ -1,9 +1,8 @@
 //! Files that appear complete or not at all.
 //!
 //! Each is written under a temporary name in its folder and renamed when complete, so that a run
-//! that ends early leaves nothing half-written under a final name. A program that is told to end
-//! calls [`give_up_all`] first: then nothing is left under a temporary name either. What a program
-//! that was killed left is known by its lock, which is gone: [`sweep`] removes it.
+//! that ends early leaves nothing half-written under a final name. A program that is terminated calls [`give_up_all`]
+//! first, which removes temporary files. Files left by a killed program have no lock any more: [`sweep`] removes them.
 
 use std::fs;
 use std::io::{self, BufWriter, Write as _};
@@ -14,7 +13,7 @@ use tempfile::NamedTempFile;
 
 use crate::output::lock::FolderLock;
 
-/// A file on its way to its final name.
+/// A file that has a temporary name.
 pub struct PendingFile {
     file: BufWriter<NamedTempFile>,
     path: PathBuf,
@@ -25,11 +24,11 @@ pub struct PendingFile {
 static IN_USE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn in_use() -> MutexGuard<'static, Vec<PathBuf>> {
-    // A list of paths is whole whatever panicked beside it.
+    // A list of paths stays valid after a panic.
     IN_USE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A temporary name's place in the list, for as long as this lives.
+/// A temporary name's entry in the list, while this lives.
 struct Listed(PathBuf);
 
 impl Drop for Listed {
@@ -38,8 +37,8 @@ impl Drop for Listed {
     }
 }
 
-/// Removes every file that is not complete. Until what it returns is dropped none is begun or
-/// completed: a program that ends holds on to it.
+/// Removes every incomplete file. Until the returned guard is dropped no file is begun or completed: a terminating
+/// program keeps it.
 #[must_use = "files can be begun again once it is dropped"]
 pub fn give_up_all() -> impl Sized {
     let names = in_use();
@@ -57,7 +56,7 @@ impl PendingFile {
     /// Where the folder cannot be written to.
     pub fn create(folder: &Path, name: &str) -> io::Result<Self> {
         let prefix = format!(".{name}.");
-        // Held until the file is locked: no other program takes it for one that was left.
+        // Held until the file is locked, so that no other program removes it.
         let _lock = FolderLock::of(folder);
         // Held until the name is in the list: no file is made unseen.
         let mut names = in_use();
@@ -70,7 +69,7 @@ impl PendingFile {
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
         let file = builder.tempfile_in(folder)?;
-        // Where the system has no locks nothing is swept either.
+        // Without system locks nothing is removed.
         let _ = file.as_file().try_lock();
         names.push(file.path().to_owned());
         let listed = Listed(file.path().to_owned());
@@ -80,12 +79,12 @@ impl PendingFile {
     /// Gives the file its final name, in place of an older one.
     ///
     /// # Errors
-    /// Where what is buffered cannot be written or the name cannot be taken.
+    /// If the buffer cannot be written or the file cannot be renamed.
     pub fn complete(self) -> io::Result<()> {
         publish(vec![self.finish()?])
     }
 
-    /// Writes what is buffered.
+    /// Writes the buffer.
     ///
     /// # Errors
     /// Where it cannot be written.
@@ -96,7 +95,7 @@ impl PendingFile {
     }
 }
 
-/// A file that is whole and has not got its name yet.
+/// A complete file without its final name.
 pub(crate) struct WholeFile {
     file: NamedTempFile,
     path: PathBuf,
@@ -113,7 +112,7 @@ impl WholeFile {
 /// Gives files their final names in their order, in place of older ones.
 ///
 /// # Errors
-/// Where a name cannot be taken; those behind it are given up.
+/// If a file cannot be renamed; the following ones are dropped.
 pub(crate) fn publish(files: Vec<WholeFile>) -> io::Result<()> {
     // The list is held, so that nobody removes a file between its two names.
     let names = in_use();
@@ -121,7 +120,7 @@ pub(crate) fn publish(files: Vec<WholeFile>) -> io::Result<()> {
     // Those that are given up are dropped after the list, which they leave then.
     let mut files = files.into_iter();
     let published = files.by_ref().try_for_each(|WholeFile { file, path, listed }| {
-        // A name leaves the list when nobody holds that any more.
+        // A name leaves the list when the guard is dropped.
         done.push(listed);
         file.persist(&path).map(drop).map_err(|error| error.error)
     });
@@ -130,7 +129,7 @@ pub(crate) fn publish(files: Vec<WholeFile>) -> io::Result<()> {
     published
 }
 
-/// Removes what programs that were killed have left of files of these names in a folder.
+/// Removes temporary files of these names that killed programs left in a folder.
 pub fn sweep(folder: &Path, names: &[&str]) {
     let _lock = FolderLock::of(folder);
     let Ok(entries) = fs::read_dir(folder) else { return };
@@ -181,7 +180,7 @@ pub fn write(folder: &Path, name: &str, content: &str) -> io::Result<()> {
 /// Where the path names no file, or its folder cannot be written to.
 pub fn write_at(file: &Path, content: &str) -> io::Result<()> {
     let name = file.file_name().and_then(|name| name.to_str());
-    let name = name.ok_or_else(|| io::Error::other("it is no file's name"))?;
+    let name = name.ok_or_else(|| io::Error::other("not a valid file name"))?;
     let folder = file.parent().filter(|folder| *folder != Path::new(""));
     write(folder.unwrap_or(Path::new(".")), name, content)
 }
@@ -191,7 +190,7 @@ pub fn write_at(file: &Path, content: &str) -> io::Result<()> {
 /// # Errors
 /// Where it cannot be made, or no folder can have the name.
 pub fn folder(out: &Path, name: &str) -> io::Result<PathBuf> {
-    /// What file systems allow.
+    /// Maximum length of file systems.
     const LONGEST: usize = 255;
     let forbidden = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
     if name.is_empty() || name.len() > LONGEST || name.starts_with('.') || name.contains(forbidden)
@@ -200,10 +199,10 @@ pub fn folder(out: &Path, name: &str) -> io::Result<PathBuf> {
             Some(character) => format!("it contains {character:?}"),
             None if name.is_empty() => "it is empty".into(),
             None if name.len() > LONGEST => format!("it has {} bytes", name.len()),
-            None => "it begins with a point".into(),
+            None => "it begins with a dot".into(),
         };
         let shown: String = name.chars().take(80).collect();
-        let reason = format!("`{shown}` cannot be the name of a folder: {why}");
+        let reason = format!("`{shown}` is not a valid folder name: {why}");
         return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
     }
     let folder = out.join(name);

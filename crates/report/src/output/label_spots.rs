@@ -1,7 +1,7 @@
-//! Where labels go: near what they name, off marks, lines and each other.
+//! Placement of labels: near their anchors, away from marks, lines and each other.
 //!
-//! `(obstacles, anchor, text) => box`. Candidates lie in rings around the anchor; the one that
-//! hides least is taken, the nearer of equals. Labels that come first are obstacles to the next.
+//! `(obstacles, anchor, text) => box`. Candidates lie in rings around the anchor; the one with the least overlap is
+//! taken, the nearer of equals. Placed labels are obstacles to the next.
 
 /// A rectangle \[pixels\].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ impl Rectangle {
     }
 }
 
-/// What is on the chart so far.
+/// Occupied areas of the chart.
 pub struct LabelSpots {
     bounds: Rectangle,
     labels: Vec<Rectangle>,
@@ -52,7 +52,7 @@ pub struct LabelSpots {
 
 /// \[pixels\] between the samples of a stroke.
 const SAMPLING: f64 = 4.0;
-/// \[pixels\] from a label's anchor to its box: further away nobody sees what it names.
+/// \[pixels\] maximum distance from a label's anchor to its box.
 const RINGS: [f64; 5] = [8.0, 14.0, 22.0, 32.0, 44.0];
 const DIRECTIONS: u32 = 24;
 

@@ -1,7 +1,7 @@
 //! One program at a time changes the names in a folder.
 //!
-//! `folder => lock`, the system's own on the folder itself: it leaves no file behind, and ends with the
-//! program however that ends. Where there is none (Windows, some network drives) nothing is locked.
+//! `folder => lock`, a system lock on the folder itself: it leaves no file, and ends with the program. On systems
+//! without it (Windows, some network drives) nothing is locked.
 
 use std::fs::File;
 use std::path::Path;

@@ -1,14 +1,14 @@
-//! Markup: what pages and drawings have in common.
+//! Markup: common parts of pages and drawings.
 //!
 //! `text => escaped text`.
 
 /// The style sheet of every page.
 pub const PAGE_STYLE: &str = include_str!("page.css");
 
-/// The script of pages with drawings: what a mark's `<title>` says stands beside it at once, under a finger, too.
+/// The script of pages with drawings: shows a mark's `<title>` immediately, also on touch.
 pub const HOVER_SCRIPT: &str = include_str!("hover.js");
 
-/// Text as HTML and SVG take it.
+/// Escapes text for HTML and SVG.
 #[must_use]
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());

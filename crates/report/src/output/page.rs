@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use crate::output::markup::escape;
 
-/// Writes a page: `title` is text, `body` is markup, each style and each script an element of its own, in order.
+/// Writes a page: `title` is text, `body` is markup, each style and each script a separate element, in order.
 #[must_use]
 pub fn html(title: &str, styles: &[&str], body: &str, scripts: &[&str]) -> String {
     let mut page = format!(

@@ -1,9 +1,8 @@
 //! Files that belong together: all of one command or none.
 //!
-//! `files, the last one the seal => published together`. Each is written under a temporary name; when
-//! all are whole the older seal goes, the files get their names, and the seal its own last. So where
-//! a seal is, the files beside it are its own, wherever the program was killed. A lock on the folder
-//! keeps two programs from mixing theirs.
+//! `files, the last one the seal => published together`. Each is written under a temporary name; when all are complete
+//! the old seal is removed, the files are renamed, and the seal last. So if a seal exists, the files beside it belong
+//! to it, even if a program was killed. A lock on the folder separates two programs.
 
 use std::fs;
 use std::io;
@@ -12,7 +11,7 @@ use std::path::{Path, PathBuf};
 use crate::output::file::{PendingFile, WholeFile, publish};
 use crate::output::lock::FolderLock;
 
-/// Files of a folder on their way to their names.
+/// Files of a folder with temporary names.
 pub struct FileSet {
     folder: PathBuf,
     files: Vec<PendingFile>,
@@ -32,7 +31,7 @@ impl FileSet {
         &self.folder
     }
 
-    /// Begins a file, to be [added](Self::add) when it is whole.
+    /// Begins a file, to be [added](Self::add) when it is complete.
     ///
     /// # Errors
     /// Where the folder cannot be written to.
@@ -45,7 +44,7 @@ impl FileSet {
         self.files.push(file);
     }
 
-    /// Says that an older file of this name is not one of them: it goes.
+    /// Marks an older file of this name for removal.
     pub fn without(&mut self, name: &str) {
         self.without.push(self.folder.join(name));
     }
@@ -61,11 +60,10 @@ impl FileSet {
         Ok(())
     }
 
-    /// Writes what is buffered, so that a full disk is met before anything older is touched, and
-    /// waits for the folder.
+    /// Writes the buffers, so that a full disk is detected before older files change, and waits for the folder.
     ///
     /// # Errors
-    /// Where what is buffered cannot be written.
+    /// If the buffers cannot be written.
     pub fn finish(self) -> io::Result<WholeSet> {
         let files = self.files.into_iter().map(PendingFile::finish);
         let files = files.collect::<io::Result<Vec<WholeFile>>>()?;
@@ -73,7 +71,7 @@ impl FileSet {
     }
 }
 
-/// Files that are whole, in a folder that no other program publishes in meanwhile.
+/// Complete files, in a folder locked against other programs.
 pub struct WholeSet {
     files: Vec<WholeFile>,
     without: Vec<PathBuf>,
@@ -84,7 +82,7 @@ impl WholeSet {
     /// Gives the files their names, in place of older ones.
     ///
     /// # Errors
-    /// Where a name cannot be taken; then there is no seal.
+    /// If a file cannot be renamed; then there is no seal.
     pub fn publish(self) -> io::Result<()> {
         let Some(seal) = self.files.last() else { return Ok(()) };
         for older in std::iter::once(seal.path()).chain(self.without.iter().map(PathBuf::as_path)) {
@@ -148,7 +146,7 @@ mod tests {
         assert_eq!(content(folder), files(&[("seal", "newest")]));
     }
 
-    /// As where a program is killed in between: a file cannot take its name.
+    /// Like a program killed in between: a file cannot be renamed.
     #[test]
     fn without_all_of_its_files_there_is_no_seal() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! What drawings are made of, as SVG.
+//! Elements of drawings as SVG.
 //!
 //! `(text so far, element) => text`. Coordinates are pixels, y down, written to a tenth.
 
@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use crate::output::markup::escape;
 
-/// Points as a polyline takes them.
+/// Points in the form of a polyline.
 #[must_use]
 pub fn joined(points: &[(f64, f64)]) -> String {
     points.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect::<Vec<_>>().join(" ")

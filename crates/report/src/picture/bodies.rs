@@ -1,7 +1,6 @@
 //! Bodies in a view: bars, plates, blocks, and their centres of mass.
 //!
-//! `(outline, frame) => SVG`. What is nearer has a rim of the paper's colour, which sets it off from
-//! what it hides.
+//! `(outline, frame) => SVG`. Nearer parts have a rim of the paper's colour, which separates them from hidden parts.
 
 use dbd_kernel::Vec3;
 
@@ -40,9 +39,9 @@ pub(crate) struct Drawn {
     pub(crate) anchor: Point,
     /// Lines that labels should not hide.
     pub(crate) strokes: Vec<[Point; 2]>,
-    /// How far out of the paper it lies \[m\].
+    /// Depth out of the paper \[m\].
     pub(crate) depth: f64,
-    /// What it is drawn as, the farthest first.
+    /// Its shapes, the farthest first.
     faces: Vec<Face>,
     /// Its centre of mass.
     pub(crate) centre: Point,
@@ -77,7 +76,7 @@ pub(crate) fn body(mechanism: &Mechanism, row: usize, frame: &Frame) -> Option<D
 }
 
 impl Drawn {
-    /// Draws it in a colour; `title` is what pointing at it shows.
+    /// Draws it in a colour; `title` is its tooltip.
     pub(crate) fn draw(&self, text: &mut String, colour: usize, title: &str) {
         begin(text, title);
         let (stroke, fill) = (format!("k{colour}"), format!("m{colour}"));

@@ -1,8 +1,8 @@
-//! One view of a mechanism, what is far first.
+//! One view of a mechanism, far parts first.
 //!
 //! `(mechanism, frame) => SVG`: bodies and springs by their depth, then ground, centres of mass,
-//! joints and forces, names at last. A mechanism of many parts is drawn in thin lines without
-//! symbols, so many of its parts, evenly picked, that the file stays small.
+//! joints and forces, names at last. A mechanism of many parts is drawn in thin lines without symbols, with an even
+//! sample of its parts to limit the file's size.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -20,9 +20,9 @@ use crate::picture::view::Frame;
 
 /// Parts that are drawn with symbols.
 const SYMBOLS: usize = 220;
-/// A body longer than this share of the whole goes around others.
+/// A body longer than this fraction of the whole is drawn behind others.
 const AROUND: f64 = 0.6;
-/// Bodies, joints and springs, of each so many at most, in thin lines.
+/// Maximum number each of bodies, joints and springs in thin lines.
 pub(crate) const LINES: usize = 2000;
 
 /// Whether a mechanism has too many parts for symbols.
@@ -34,8 +34,8 @@ pub(crate) fn crowded(mechanism: &Mechanism) -> bool {
     bodies.len() + joints.len() + elements > SYMBOLS
 }
 
-/// Rows of so many, evenly picked where they are too many: one out of each run of them, not always
-/// the same of a run, for a grid would lose whole columns.
+/// An even sample of rows: one of each block, at varying offsets, because a regular pattern would lose whole columns of
+/// a grid.
 pub(crate) fn picked(count: usize, most: usize) -> impl Iterator<Item = usize> {
     let shown = count.min(most);
     (0..shown).map(move |n| {
@@ -46,7 +46,7 @@ pub(crate) fn picked(count: usize, most: usize) -> impl Iterator<Item = usize> {
     })
 }
 
-/// A view: what is drawn of which mechanism.
+/// A view of a mechanism.
 pub(crate) struct Drawing<'d> {
     pub(crate) mechanism: &'d Mechanism,
     pub(crate) frame: &'d Frame,
@@ -115,7 +115,7 @@ impl Drawing<'_> {
         };
         let _ = writeln!(text, "<g class=\"{strokes}\">");
         let mut layer = Layer::new(text);
-        // Sliders and blocks before what may stand on them.
+        // Sliders and blocks before parts that may lie on them.
         let mut joints: Vec<_> = mechanism.joints.iter().collect();
         joints.sort_by_key(|joint| joint.kind);
         let named = room.is_some();
@@ -162,17 +162,17 @@ impl Drawing<'_> {
         }
     }
 
-    /// Bodies, springs and guides, the farthest first; of what is equally far blocks, plates, bars.
+    /// Bodies, springs and guides, the farthest first; at equal depth blocks, plates, bars.
     fn by_depth(&self, bodies: &[Option<Drawn>]) -> Vec<Part> {
         let mechanism = self.mechanism;
         let far = |place| self.frame.depth(mechanism.place(place));
-        // Rounding of what lies in one plane orders nothing.
+        // Rounding within a plane does not affect the order.
         let step = 0.1 / self.frame.scale.max(1e-300);
         let mut parts: Vec<(bool, f64, usize, Part)> = Vec::new();
         let mut add = |near: bool, depth: f64, layer, part| {
             parts.push((near, libm::round(depth / step), layer, part));
         };
-        // What goes around the others hides none of them.
+        // A body around the others does not hide them.
         let mut reach = Bounds::default();
         let corners = (0..bodies.len()).flat_map(|row| mechanism.corners(row));
         corners.for_each(|corner| reach.add(corner));
@@ -287,7 +287,7 @@ impl Drawing<'_> {
     }
 }
 
-/// What is ordered by depth.
+/// A part ordered by depth.
 #[derive(Clone, Copy)]
 enum Part {
     Body(usize),
@@ -295,7 +295,7 @@ enum Part {
     Guide(usize),
 }
 
-/// Text in which nothing stands twice: what lies behind its like adds nothing.
+/// Text without duplicates: identical elements behind each other are drawn once.
 struct Layer<'t> {
     text: &'t mut String,
     seen: BTreeSet<String>,
@@ -316,7 +316,7 @@ impl<'t> Layer<'t> {
     }
 }
 
-/// What pointing at a part with a name shows, in the view that has names.
+/// Tooltip of a part with a name, in the view with names.
 fn titled(text: &mut String, named: bool, name: &str, draw: impl FnOnce(&mut String)) {
     if !named || name.is_empty() {
         return draw(text);
@@ -326,7 +326,7 @@ fn titled(text: &mut String, named: bool, name: &str, draw: impl FnOnce(&mut Str
     end(text);
 }
 
-/// What pointing at a body shows.
+/// Tooltip of a body.
 fn title(mechanism: &Mechanism, row: usize) -> String {
     let body = &mechanism.bodies[row];
     let name = dbd_scene::shortened(&body.name).replace(char::is_control, " ");

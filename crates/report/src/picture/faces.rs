@@ -1,4 +1,4 @@
-//! What lies behind an outline in a view: bars, plates, boxes, cylinders, links, balls.
+//! Outlines of solids in a view: bars, plates, boxes, cylinders, links, balls.
 //!
 //! `(solid, frame) => outline, edges within it => SVG`. In a parallel projection each solid is the hull of its corners,
 //! rims or circles.
@@ -21,12 +21,12 @@ pub(crate) struct Face {
     edges: Vec<Vec<Point>>,
     /// Its own, `#rrggbb`.
     colour: Option<String>,
-    /// How far out of the paper it lies \[m\].
+    /// Depth out of the paper \[m\].
     depth: f64,
 }
 
 impl Face {
-    /// Without edges and without a colour of its own.
+    /// Without edges and without a separate colour.
     pub(crate) fn new(corners: Vec<Point>) -> Self {
         Self { corners, edges: Vec::new(), colour: None, depth: 0.0 }
     }

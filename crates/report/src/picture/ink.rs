@@ -9,7 +9,7 @@ use crate::output::markup::escape;
 /// A point on paper \[pixels, y down\].
 pub(crate) type Point = (f64, f64);
 
-/// A number as a path takes it.
+/// A number in the form of a path.
 pub(crate) fn number(value: f64) -> String {
     // Beyond any paper; neither infinite nor long.
     let value = if value.is_finite() { value.clamp(-1e5, 1e5) } else { 0.0 };
@@ -18,7 +18,7 @@ pub(crate) fn number(value: f64) -> String {
     if short == "-0" { "0".into() } else { short.into() }
 }
 
-/// A point as a path takes it.
+/// A point in the form of a path.
 pub(crate) fn xy((x, y): Point) -> String {
     format!("{} {}", number(x), number(y))
 }
@@ -44,7 +44,7 @@ pub(crate) fn path(text: &mut String, class: &str, data: &str) {
     let _ = writeln!(text, "<path class=\"{class}\" d=\"{data}\"/>");
 }
 
-/// A path with a style of its own.
+/// A path with a separate style.
 pub(crate) fn path_in(text: &mut String, class: &str, style: &str, data: &str) {
     let _ = writeln!(text, "<path class=\"{class}\" style=\"{style}\" d=\"{data}\"/>");
 }
@@ -71,12 +71,12 @@ pub(crate) fn words(text: &mut String, class: &str, (x, y): Point, anchor: &str,
     let _ = writeln!(text, "<text{class} x=\"{x}\" y=\"{y}\"{anchor}>{}</text>", escape(words));
 }
 
-/// What pointing at the next elements shows, until [`end`].
+/// Begins a tooltip for the next elements, until [`end`].
 pub(crate) fn begin(text: &mut String, title: &str) {
     let _ = writeln!(text, "<g><title>{}</title>", escape(title));
 }
 
-/// Ends what [`begin`] began.
+/// Ends a group of [`begin`].
 pub(crate) fn end(text: &mut String) {
     text.push_str("</g>\n");
 }

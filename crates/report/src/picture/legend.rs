@@ -1,4 +1,4 @@
-//! What the symbols of a picture mean: one entry for each kind that occurs.
+//! Legend of a picture: one entry for each kind of symbol.
 //!
 //! `mechanism => symbols with words, in rows`.
 
@@ -167,7 +167,7 @@ pub(crate) fn write(
     y + ROW - top
 }
 
-/// A scale: a bar of so many pixels and what it is long.
+/// A scale: a bar of the given pixels and its length.
 pub(crate) fn scale_bar(text: &mut String, (x, y): Point, (pixels, name): (f64, &str)) {
     let end = x + pixels;
     line(text, "ink", &[(x, y - 4.0), (x, y + 4.0)]);

@@ -1,19 +1,19 @@
-//! What a mechanism looks like: its geometry at the initial pose, and a picture of it.
+//! Geometry of a mechanism at the initial pose, and a picture of it.
 //!
-//! `scene => mechanism => SVG`. The modules in the order in which they stand on each other:
+//! `scene => mechanism => SVG`. The modules in dependency order:
 //!
 //! - [`mechanism`]: bodies as outlines between the points of their joints and elements, joints with
 //!   their axes, springs, ground, loads; in the axes of their bodies, so that it can be moved.
-//! - [`view`]: from which sides it is seen, and how large.
+//! - [`view`]: view directions and scale.
 //! - `style`: colours, light and dark.
 //! - `ink`: SVG elements as text.
 //! - `paths`: lines of symbols: springs, hatching, arrows.
 //! - `symbols`: joints, springs, ground, forces in a view.
 //! - `faces`: outlines of bars, plates and solids in a view.
 //! - `bodies`: bodies in a view.
-//! - `names`: what is written beside what, in the room that there is.
-//! - `drawing`: one view, what is far first.
-//! - `legend`: what the symbols mean.
+//! - `names`: labels within the available space.
+//! - `drawing`: one view, far parts first.
+//! - `legend`: meaning of the symbols.
 //! - `sheet`: the views on one sheet.
 
 mod bodies;

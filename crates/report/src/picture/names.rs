@@ -1,6 +1,6 @@
-//! Names in a view: bodies first, then what is driven, joints and springs, in the room there is.
+//! Names in a view: bodies first, then driven parts, joints and springs, within the available space.
 //!
-//! `(anchors, what is drawn) => labels that lie on nothing, count of those left out`.
+//! `(anchors, drawn parts) => labels without overlap, number of omitted ones`.
 
 use crate::output::label_spots::{LabelSpots, Rectangle};
 
@@ -16,7 +16,7 @@ const MOST: usize = 48;
 pub(crate) struct Label {
     /// The whole name.
     pub(crate) name: String,
-    /// What it names.
+    /// Its part.
     pub(crate) anchor: Point,
     /// Its class in the style sheet.
     pub(crate) class: String,

@@ -8,7 +8,7 @@ fn apart((x0, y0): Point, (x1, y1): Point) -> f64 {
     libm::hypot(x1 - x0, y1 - y0)
 }
 
-/// A point at a share of the way between two.
+/// A point at a fraction between two.
 pub(crate) fn between((x0, y0): Point, (x1, y1): Point, share: f64) -> Point {
     (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
 }
@@ -33,7 +33,7 @@ pub(crate) fn offset(
     (from.0 + along * ux + across * vx, from.1 + along * uy + across * vy)
 }
 
-/// A spring between two points; `None` where they are too near for one.
+/// A spring between two points; `None` if they are too close.
 pub(crate) fn zigzag(from: Point, to: Point, symbols: f64) -> Option<Vec<Point>> {
     let length = apart(from, to);
     let frame = directions(from, to)?;

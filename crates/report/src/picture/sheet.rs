@@ -1,4 +1,4 @@
-//! The sheet: a large view with names, small ones from the other sides, what the symbols mean.
+//! The sheet: a large view with names, small ones from the other sides, a legend.
 //!
 //! `mechanism => SVG`. Every number is rounded to a tenth of a pixel and every order is the
 //! scene's, so the same scene gives the same text.
@@ -16,10 +16,10 @@ use crate::picture::style::{LETTERS, ROOT, sheet};
 use crate::picture::symbols::Symbols;
 use crate::picture::view::{Frame, View, Views, extent, reach};
 
-/// What a picture is drawn on.
+/// Background of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Paper {
-    /// A file of its own: with the scene's name, dark where the reader's screen is.
+    /// A separate file: with the scene's name, dark on a dark screen.
     File,
     /// A page that has a heading and a background, dark where the reader's screen is.
     Page,
@@ -28,7 +28,7 @@ pub enum Paper {
 /// \[pixels\] width of the sheet: narrow, so that letters can be read where it is scaled down.
 const WIDTH: f64 = 640.0;
 const MARGIN: f64 = 12.0;
-/// \[pixels\] about what is drawn to scale, for symbols and names.
+/// \[pixels\] margin around the drawing to scale, for symbols and names.
 const ROUND_MAIN: (f64, f64) = (70.0, 52.0);
 const ROUND_SMALL: (f64, f64) = (30.0, 30.0);
 /// \[pixels\] least and greatest height of the drawn part of a view.
@@ -75,7 +75,7 @@ struct Sheet<'s> {
 }
 
 impl Sheet<'_> {
-    /// A line of text; what is too long for one goes on in the next.
+    /// A line of text, wrapped if too long.
     fn write(&mut self, class: &str, line: &str) {
         let mut rest = String::new();
         for word in line.split(' ') {
@@ -99,7 +99,7 @@ impl Sheet<'_> {
     fn main(&mut self, views: &Views) -> usize {
         let title = match views.main.seen_along() {
             Some(axis) => format!("{} view, seen along {axis}", views.main.name),
-            None if views.planar => "in its plane, seen along its hinges".into(),
+            None if views.planar => "in the plane, seen along the hinge axes".into(),
             None => format!("oblique view {}", views.main.name),
         };
         self.write("", &title);
@@ -178,7 +178,7 @@ impl Sheet<'_> {
         let text = &mut self.text;
         let centre = (left + 36.0, self.y + 36.0);
         let mut axes: Vec<_> = Vec3::<f64>::axes().into_iter().zip(["x", "y", "z"]).collect();
-        // What leads out of the paper is drawn above the others.
+        // Axes out of the paper are drawn above the others.
         axes.sort_by(|(a, _), (b, _)| {
             a.dot(frame.view.toward).abs().total_cmp(&b.dot(frame.view.toward).abs())
         });
@@ -207,7 +207,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// What the symbols mean, what is not shown, how it is projected.
+    /// Legend, omissions and projection.
     fn foot(&mut self, views: &Views, left_out: usize) {
         line(&mut self.text, "rule", &[(MARGIN, self.y), (WIDTH - MARGIN, self.y)]);
         self.y += 8.0;
@@ -220,7 +220,7 @@ impl Sheet<'_> {
             let shown = |count: usize, what: &str| match count {
                 0 => String::new(),
                 count if count <= LINES => format!(" {count} {what},"),
-                count => format!(" {LINES} of {count} {what}, evenly picked,"),
+                count => format!(" {LINES} of {count} {what}, evenly sampled,"),
             };
             let parts = [
                 shown(bodies.len(), "bodies"),
@@ -231,15 +231,17 @@ impl Sheet<'_> {
             let Mechanism { torsions, interactions, forces, .. } = self.mechanism;
             let other = guides.len() + torsions.len() + interactions.len() + forces.len();
             let left = match other {
-                0 => "Left out: names, symbols.".into(),
+                0 => "Omitted: names, symbols.".into(),
                 n => format!(
-                    "Left out: names, symbols, {n} points on lines, torsion springs, interactions, loads, inputs."
+                    "Omitted: names, symbols, {n} points on lines, torsion springs, interactions, loads, inputs."
                 ),
             };
             format!("Drawn:{}. {left}", parts.trim_end_matches(','))
         } else if left_out > 0 {
             let names = if left_out == 1 { "name" } else { "names" };
-            format!("{left_out} {names} found no room: pointing at a part shows its name.")
+            format!(
+                "{left_out} {names} omitted for lack of space: point at a part to show its name."
+            )
         } else {
             String::new()
         };
@@ -253,7 +255,7 @@ impl Sheet<'_> {
             let [x, y, z] = middle.to_f64().map(|value| format!("{value:.6e}"));
             self.write(
                 "quiet",
-                &format!("Far from the origin: its middle lies at ({x}, {y}, {z}) m."),
+                &format!("Far from the origin: the centre is at ({x}, {y}, {z}) m."),
             );
         }
         self.write("quiet", "Parallel projection at t = 0: top from above, side from the right.");
@@ -286,12 +288,12 @@ fn fitting(across: f64, up: f64, room: (f64, f64)) -> f64 {
     fits(across, room.0).min(fits(up, room.1))
 }
 
-/// A scale, where there is none some.
+/// The scale, or a default.
 fn scale(fitting: f64) -> f64 {
     if fitting.is_finite() && fitting > 0.0 { fitting } else { 100.0 }
 }
 
-/// An arrow from a point along a direction, with a letter at its tip.
+/// An arrow from a point along a direction, with a letter at its end.
 fn arrow_with_name(
     text: &mut String,
     symbols: &Symbols<'_>,
@@ -303,7 +305,7 @@ fn arrow_with_name(
     symbols.arrow(text, at, direction, (0.0, LENGTH), "ink");
     let (x, y) = symbols.frame.on_paper(direction);
     let length = libm::hypot(x, y);
-    // Beside the circle of an axis that leads out of the paper.
+    // Beside the circle of an axis out of the paper.
     let tip = if length > 0.12 {
         let reach = LENGTH * length.max(0.35) / length + 10.0 / length;
         (at.0 + reach * x, at.1 + reach * y)

@@ -1,8 +1,7 @@
 //! Colours and widths, light and dark, as a style sheet within the SVG.
 //!
-//! Bodies in colours of Okabe & Ito (2008), distinct for people who see few; forces and inputs in
-//! their vermilion. Every rule is bound to the picture's own class, so that a page that holds the
-//! picture keeps its style.
+//! Bodies in colours of Okabe & Ito (2008), distinct for colour-blind readers; forces and inputs in their vermilion.
+//! Every rule is bound to the picture's class, so that it does not affect a surrounding page.
 
 /// The class of the picture's root.
 pub(crate) const ROOT: &str = "mechanism";
@@ -16,7 +15,7 @@ pub(crate) const LETTERS: f64 = 17.0;
 /// Shapes, in light colours.
 const SHEET: &str = include_str!("picture.css");
 
-/// What changes where the reader's screen is dark.
+/// Changes for a dark screen.
 const DARK: &str = include_str!("dark.css");
 
 /// The style sheet, which follows the reader's screen.

@@ -51,7 +51,7 @@ impl Symbols<'_> {
         }
     }
 
-    /// The ground that a joint stands on.
+    /// The ground of a joint.
     fn support(&self, text: &mut String, at: Point, kind: JointKind, axis: Option<Point>) {
         let s = self.size();
         let sliding = matches!(kind, JointKind::Translational | JointKind::Cylindrical);
@@ -161,7 +161,7 @@ impl Symbols<'_> {
         }
     }
 
-    /// Points about an axis, by their angle's end and their radius \[pixels\] along the way.
+    /// Points about an axis, by their final angle and their radius \[pixels\].
     fn around(
         &self,
         (x, y): Point,
@@ -207,8 +207,7 @@ impl Symbols<'_> {
         }
     }
 
-    /// An arrow between two distances from a point; one that leads out of the paper is a circle with
-    /// its tip or its feathers.
+    /// An arrow between two distances from a point; an arrow out of the paper is a circle with its head or its tail.
     pub(crate) fn arrow(
         &self,
         text: &mut String,
@@ -232,7 +231,7 @@ impl Symbols<'_> {
     }
 }
 
-/// An arrow that leads out of the paper, by its tip, or into it, by its feathers.
+/// An arrow out of the paper, by its head, or into it, by its tail.
 pub(crate) fn out_of_paper(text: &mut String, at: Point, toward: bool, class: &str, radius: f64) {
     let fill = if class == "force" { "head" } else { "full" };
     circle(text, class, at, radius);

@@ -9,10 +9,10 @@ use dbd_kernel::Vec3;
 
 use crate::picture::mechanism::{Bounds, JointKind, Mechanism, Place, Solid};
 
-/// A direction to look from.
+/// A view direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// What it is called.
+    /// Its name.
     pub name: &'static str,
     /// To the right on paper, world.
     pub right: Vec3<f64>,
@@ -33,7 +33,7 @@ pub struct Views {
     pub planar: bool,
 }
 
-/// A mechanism that is thinner than this share of its size lies in a plane.
+/// A mechanism thinner than this fraction of its size is planar.
 const THIN: f64 = 0.02;
 /// Sine of the angle within which directions count as one.
 const PARALLEL: f64 = 1e-3;
@@ -41,11 +41,11 @@ const PARALLEL: f64 = 1e-3;
 const ELEVATION: f64 = 0.42;
 /// \[rad\] azimuths of the oblique view from the front to the right, the usual one first.
 const AZIMUTHS: [f64; 6] = [0.62, 0.95, 0.3, -0.62, -0.95, -0.3];
-/// Another azimuth has to be so much better than the usual one.
+/// Factor by which another azimuth must be better than the default.
 const BETTER: f64 = 1.15;
 
 impl View {
-    /// The axis of the world along which it looks, `−z`; `None` where it looks along none.
+    /// The world axis of the view direction, `−z`; `None` if it is oblique.
     #[must_use]
     pub fn seen_along(&self) -> Option<&'static str> {
         const NAMES: [[&str; 2]; 3] = [["x", "−x"], ["y", "−y"], ["z", "−z"]];
@@ -94,7 +94,7 @@ impl Views {
             let main = small.remove(row);
             return Self { main, small, planar: true };
         }
-        // From the side that is nearer to the front, to above or to the right.
+        // From the side nearer to the front, top or right.
         let shares = [out, up, right].map(|side| normal.dot(side));
         let largest =
             shares.into_iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
@@ -123,7 +123,7 @@ fn turned(front: &View, azimuth: f64) -> View {
 fn oblique(mechanism: &Mechanism, front: &View) -> View {
     /// Of more joints no angle shows each.
     const MOST: usize = 150;
-    /// Shares of the view's size: what is farther apart is apart enough.
+    /// Fractions of the view's size: larger distances are sufficient.
     const APART: f64 = 0.08;
     let usual = turned(front, AZIMUTHS[0]);
     let mut places: Vec<Vec3<f64>> = Vec::new();
@@ -163,7 +163,7 @@ fn oblique(mechanism: &Mechanism, front: &View) -> View {
     best.1
 }
 
-/// The points of a mechanism that say how far it reaches; boxes of bodies are not among them.
+/// The points of a mechanism that define its size, without boxes of bodies.
 fn points(mechanism: &Mechanism) -> impl Iterator<Item = Vec3<f64>> {
     let bodies = (0..mechanism.bodies.len()).map(|row| Place { body: Some(row), point: [0.0; 3] });
     let joints = mechanism.joints.iter().map(|joint| joint.places[0]);
@@ -198,7 +198,7 @@ fn normal(mechanism: &Mechanism) -> Option<Vec3<f64>> {
         let off = |point: &Vec3<f64>| (*point - middle).dot(normal).abs();
         points.iter().all(|point| off(point) <= 0.5 * THIN * size)
     };
-    // What turns about one direction moves in the plane across it.
+    // Rotation about one direction moves parts in the perpendicular plane.
     let turning = [JointKind::Revolute, JointKind::Cylindrical];
     let hinges = mechanism.joints.iter().filter(|joint| turning.contains(&joint.kind));
     let axes: Vec<Vec3<f64>> =
@@ -219,7 +219,7 @@ fn normal(mechanism: &Mechanism) -> Option<Vec3<f64>> {
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     pub(crate) view: View,
-    /// In the world, what is shown at `centre`.
+    /// World point shown at `centre`.
     pub(crate) middle: Vec3<f64>,
     /// \[pixels\].
     pub(crate) centre: (f64, f64),
@@ -237,7 +237,7 @@ impl Frame {
         (self.centre.0 + self.scale * x, self.centre.1 - self.scale * y)
     }
 
-    /// How far out of the paper a point lies \[m\].
+    /// Depth of a point out of the paper \[m\].
     pub(crate) fn depth(&self, point: Vec3<f64>) -> f64 {
         (point - self.middle).dot(self.view.toward)
     }

@@ -291,7 +291,7 @@ fn ten_thousand_bodies_fit_into_a_small_file_that_says_what_is_left_out() {
     is_sound("ten thousand", &text);
     assert!(text.len() < 500_000, "{}", text.len());
     for words in
-        ["2000 of 10000 bodies", "2000 of 4000 joints", "2000 of 6000 TSDAs", "Left out: names"]
+        ["2000 of 10000 bodies", "2000 of 4000 joints", "2000 of 6000 TSDAs", "Omitted: names"]
     {
         assert!(text.contains(words), "{words}");
     }

@@ -1,4 +1,4 @@
-//! Elements without a length: point bushings, revolutes of them, universal joints without a spider.
+//! Elements of zero length: point bushings, revolute joints of bushings, universal joints without a spider.
 
 use dbd_kernel::model::Law;
 use dbd_kernel::{PointBushing, Revolute, Universal, Vec3};
@@ -8,7 +8,7 @@ use crate::pair::Pair;
 use crate::spring::Spring;
 
 impl Assembly {
-    /// Adds a group of point bushings, one per centre, of a joint of a size \[m\]; 0 of a raw one.
+    /// Adds a group of point bushings, one per centre; `size` \[m\] is that of the joint, 0 for a raw element.
     pub(crate) fn add_bushings(
         &mut self,
         pair: &Pair,
@@ -25,8 +25,8 @@ impl Assembly {
         Ok(())
     }
 
-    /// Adds a revolute joint of bushings: an axis in the world, as long as its lever \[m\], and the ratio of
-    /// the stiffness along it to that across it.
+    /// Adds a revolute joint of bushings. `lever_w` is the axis in the world with the lever arm \[m\] as its length,
+    /// `ratio` the axial stiffness over the radial one.
     pub(crate) fn add_revolute(
         &mut self,
         pair: &Pair,
@@ -50,18 +50,18 @@ impl Assembly {
         Ok(())
     }
 
-    /// Leaves out the mass \[kg\] that the last group's joint has no use for.
+    /// Records the mass \[kg\] that the joint of the last group does not use.
     pub(crate) fn leave_out(&mut self, mass: f64) {
         self.left_out.insert(self.model.groups.len() - 1, mass);
     }
 
-    /// \[kg\] what a group's joint has no use for.
+    /// \[kg\] mass that the joint of a group does not use.
     pub(crate) fn mass_left_out(&self, number: usize) -> f64 {
         self.left_out.get(&number).copied().unwrap_or(0.0)
     }
 
-    /// Adds a universal joint without a spider: the first body's axis, as long as its lever \[m\], and
-    /// the second's, each in its own axes.
+    /// Adds a universal joint without a spider: the axis of the first body with the lever arm \[m\] as its length,
+    /// and that of the second, each in body axes.
     pub(crate) fn add_universal(
         &mut self,
         pair: &Pair,

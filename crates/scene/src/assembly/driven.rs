@@ -1,4 +1,4 @@
-//! Inputs and what read-outs need: parts of the model that name other parts.
+//! Inputs, and the torsion springs and hinges that read-outs need.
 
 use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::elements::source::{Source, SourceLaw};
@@ -11,13 +11,13 @@ use crate::hinge::Hinge;
 use crate::pair::Pair;
 use crate::spring::Spring;
 
-/// Axes closer than this (one less the cosine of their angle) are one axis.
+/// Axes count as equal if 1 − cos of their angle is less than this.
 const SAME_AXIS: f64 = 1e-12;
 
-/// Why a group cannot be an anchor.
+/// Reasons why a group cannot be an anchor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NoAnchor {
-    /// Neither of its ends is the world.
+    /// Neither of its bodies is the world.
     NoGround,
     /// This input moves it already.
     Taken(usize),
@@ -37,8 +37,7 @@ impl Assembly {
         Some(Hinge { a: spring.a, b: spring.b, axis: spring.axis })
     }
 
-    /// The torsion spring that counts a hinge's turns: one that is there, or a new one without
-    /// stiffness.
+    /// The torsion spring that counts a hinge's revolutions: an existing one, or a new one without stiffness.
     pub(crate) fn carrier(&mut self, hinge: &Hinge) -> Result<u16, Defect> {
         let same = |axis: Vec3<f64>| 1.0 - axis.dot(hinge.axis) < SAME_AXIS;
         let between = self.torsions_between.get(&[hinge.a.0, hinge.b.0]);
@@ -54,12 +53,12 @@ impl Assembly {
         index(row, 0, "torsion springs")
     }
 
-    /// Torsion springs, those that only count turns included.
+    /// The number of torsion springs, including those that only count revolutions.
     pub(crate) fn torsions(&self) -> usize {
         self.model.torsions.len()
     }
 
-    /// A vector of a body's axes in the world.
+    /// Transforms a vector from body axes to the world.
     pub(crate) fn direction_w(&self, body: BodyIndex, vector_b: Vec3<f64>) -> Vec3<f64> {
         match self.state(body) {
             Some(state) => state.orientation.rotation().to_world(vector_b),
@@ -115,7 +114,7 @@ impl Assembly {
         Ok(input)
     }
 
-    /// Lets an input follow a table that repeats or stands over a read-out.
+    /// Lets an input follow a periodic table or a table over a read-out.
     pub(crate) fn add_source(
         &mut self,
         input: InputIndex,
@@ -130,7 +129,7 @@ impl Assembly {
         Ok(())
     }
 
-    /// Adds the first knots of a table: their first row, and how many they are.
+    /// Adds the first `count` knots of a table and returns their first row and number.
     fn add_knots(
         &mut self,
         Curve { knots, linear }: &Curve,

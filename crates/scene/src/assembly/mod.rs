@@ -1,7 +1,7 @@
-//! The model as it grows: bodies first, then groups, torsion springs and loads.
+//! The model under construction: bodies first, then groups, torsion springs and loads.
 //!
-//! `checked elements => kernel model` in double precision. World points become points of their
-//! bodies by `Rᵀ·(P − x)` with the very rotation that the kernel places them back with.
+//! `checked elements => kernel model` in double precision. World points become points of their bodies by `Rᵀ·(P − x)`
+//! with the rotation that the kernel uses for the inverse.
 
 mod bushings;
 mod driven;
@@ -35,100 +35,99 @@ use crate::text::Table;
 /// The name of the ground.
 pub(crate) const WORLD: &str = "world";
 
-/// A model in the making.
+/// A model under construction.
 #[derive(Default)]
 pub(crate) struct Assembly {
     model: SceneModel<F64>,
     frames: Vec<<F64 as Geometry>::Frame>,
     names: Vec<String>,
     rows: BTreeMap<String, BodyIndex>,
-    /// The states in which bodies were given that have moved since.
+    /// Given states of the bodies that have been moved since.
     given: BTreeMap<usize, BodyState<F64>>,
     is_assembled: bool,
-    /// What values stand for that the long form gives otherwise, by where they begin in the text.
+    /// Resolved values that the long form writes differently, by their position in the text.
     resolved: RefCell<BTreeMap<usize, Resolved>>,
     points: BTreeMap<String, Vec3<f64>>,
-    /// \[m\] how large joints are whose elements have no length, by their groups.
+    /// \[m\] sizes of joints whose elements have no length, by group.
     sizes: BTreeMap<usize, f64>,
-    /// \[kg\] what the scene gives spiders that joints of bushings have no use for, by their groups.
+    /// \[kg\] masses of spiders that joints of bushings do not use, by group.
     left_out: BTreeMap<usize, f64>,
-    /// Per body where it has points of its own, from its centre of mass, body axes.
+    /// Per body its own named points, from the centre of mass in body axes.
     ends: Vec<Vec<(String, Vec3<f64>)>>,
     /// Rows of the torsion springs between two bodies, ascending.
     torsions_between: BTreeMap<[u16; 2], Vec<usize>>,
-    /// Per body the turn from its principal axes to those that it is written in, where it is one.
+    /// Per body the rotation from its principal axes to its given axes, if they differ.
     turns: Vec<Option<Quaternion<f64>>>,
 }
 
-/// Why an element does not fit the model.
+/// Reasons why an element does not fit the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Defect {
-    /// One more than the model can count.
+    /// The number exceeds the index range.
     TooMany(&'static str),
-    /// A derived number is beyond what a number can hold.
+    /// A derived number is out of range.
     OutOfRange,
-    /// A clearance as large as the free length \[m\] of its elements.
+    /// A clearance not below the free length \[m\] of its elements.
     Clearance(f64),
 }
 
 impl Defect {
-    /// Refuses the element.
+    /// The error for the element.
     pub(crate) fn refuse(self, table: &Table<'_>) -> SceneError {
         match self {
             Self::TooMany(what) => {
-                let problem = format!("is one too many: the model counts {what} in 16 bits");
+                let problem = format!("exceeds the 16-bit index range for {what}");
                 let most = if what == "bodies" { BodyIndex::FIRST_ANCHOR.into() } else { LIMIT };
                 table.refuse(&problem, format!("a scene has at most {most} {what}"))
             }
             Self::OutOfRange => table.refuse(
-                "has points or lengths that double precision cannot hold",
-                "coordinates of at most 1e150 m, free lengths from 1e-150 to 1e150 m",
+                "has points or lengths out of the range of double precision",
+                "use coordinates of at most 1e150 m and free lengths from 1e-150 to 1e150 m",
             ),
             Self::Clearance(free_length) => {
                 let problem = format!("is not below the free length of {free_length:?} m");
-                let help = "a clearance is a small part of its joint: m, from 0 to below the \
-                            free length of the joint's elements";
+                let help = "give a clearance in m, from 0 to below the free length of the joint's elements";
                 table.refuse_value("clearance", &problem, help)
             }
         }
     }
 }
 
-/// Most bodies, points, elements or dampers: their indices are 16 bits wide and the last value
-/// means the world or none.
+/// Maximum number of bodies, points, elements or dampers: indices have 16 bits, and the last value means the world or
+/// none.
 const LIMIT: usize = u16::MAX as usize;
 
-/// \[m\] Greatest coordinate and free length: squares of sums of a few stay finite.
+/// \[m\] Greatest coordinate and free length: squares of sums of a few of them stay finite.
 const GREATEST_LENGTH: f64 = 1e150;
 
 /// \[m\] Least free length: its square is not yet subnormal.
 const LEAST_LENGTH: f64 = 1e-150;
 
-/// The points of a group, each in the axes of its owner.
+/// The points of a group, each in the axes of its body.
 #[derive(Clone, Copy)]
 pub(crate) struct Points<'p> {
-    /// The first body's, one per star.
+    /// Points of the first body, one per spring triple.
     pub(crate) centres: &'p [Vec3<f64>],
-    /// The second body's.
+    /// Endpoints on the second body.
     pub(crate) tips: &'p [Vec3<f64>],
-    /// Whether all stars share the tips.
+    /// Whether all spring triples share the endpoints.
     pub(crate) shared: bool,
 }
 
 impl Points<'_> {
-    /// Tips per star.
+    /// Endpoints per spring triple.
     fn arms(&self) -> usize {
         let stars = if self.shared { 1 } else { self.centres.len().max(1) };
         self.tips.len() / stars
     }
 
-    /// One per star and arm.
+    /// Elements: one per spring triple and leg.
     fn elements(&self) -> usize {
         self.centres.len() * self.arms()
     }
 }
 
-/// What the points of a group on parallel lines have in common.
+/// Common data of a group of points on parallel lines.
 #[derive(Clone, Copy)]
 pub(crate) struct Lines {
     /// Unit direction in the first body's axes.
@@ -153,7 +152,7 @@ impl Assembly {
         self.model.initial.get(body.row())
     }
 
-    /// A world point in the axes of its owner.
+    /// A world point in body axes.
     pub(crate) fn point_in(&self, body: BodyIndex, point_w: Vec3<f64>) -> Vec3<f64> {
         match self.state(body) {
             Some(state) => self.vector_in(body, point_w - state.position),
@@ -161,7 +160,7 @@ impl Assembly {
         }
     }
 
-    /// A world vector in the axes of a body.
+    /// A world vector in body axes.
     pub(crate) fn vector_in(&self, body: BodyIndex, vector_w: Vec3<f64>) -> Vec3<f64> {
         match self.frames.get(body.row()) {
             Some(frame) => F64::to_body(frame, vector_w),
@@ -169,7 +168,7 @@ impl Assembly {
         }
     }
 
-    /// A point of a body in the world, as the kernel places it.
+    /// A body point in the world, as computed by the kernel.
     pub(crate) fn place(&self, body: BodyIndex, point_b: Vec3<f64>) -> Vec3<f64> {
         match self.frames.get(body.row()) {
             Some(frame) => F64::place(frame, &point_b).0,
@@ -177,8 +176,8 @@ impl Assembly {
         }
     }
 
-    /// What a unit impulse between two bodies, each free, makes of their rate: \[1/kg\] along a line through
-    /// both centres, \[1/(kg·m²)\] about a unit axis in the world.
+    /// Relative velocity that a unit impulse causes between two free bodies: \[1/kg\] along a line through both
+    /// centres, \[1/(kg·m²)\] about a unit axis in the world.
     pub(crate) fn mobility(&self, ends: [BodyIndex; 2], about: Option<Vec3<f64>>) -> f64 {
         let of = |end: BodyIndex| match (self.model.bodies.get(end.row()), about) {
             (Some(body), Some(axis_w)) => {
@@ -203,7 +202,7 @@ impl Assembly {
         }
     }
 
-    /// Sets the field of gravity \[m/s²\]; a field of 0 counts as no gravity.
+    /// Sets the gravitational field \[m/s²\]; a field of 0 counts as no gravity.
     pub(crate) fn set_gravity(&mut self, gravity: [f64; 3]) {
         self.model.gravity =
             if gravity == [0.0; 3] { Vec::new() } else { vec![Vec3::from_f64(gravity)] };
@@ -230,7 +229,7 @@ impl Assembly {
         Ok(BodyIndex(row))
     }
 
-    /// Adds a group of TSDAs, each of `free_length` \[m\]: every centre joined to its tips.
+    /// Adds a group of TSDAs, each of `free_length` \[m\]: every centre joined to its endpoints.
     pub(crate) fn add_tsdas(
         &mut self,
         pair: &Pair,
@@ -252,7 +251,7 @@ impl Assembly {
         Ok(())
     }
 
-    /// Adds a group of points on parallel lines: every centre is on the line of its tips.
+    /// Adds a group of points on parallel lines: every centre lies on the line of its endpoints.
     pub(crate) fn add_lines(
         &mut self,
         pair: &Pair,
@@ -300,13 +299,13 @@ impl Assembly {
         Ok(())
     }
 
-    /// Whether a point's coordinates, both in its body and in the world, have squares to add.
+    /// Whether the squares of the coordinates of a point can be summed, in its body and in the world.
     fn in_range(&self, body: BodyIndex, point_b: Vec3<f64>) -> bool {
         let coordinates = [point_b, self.place(body, point_b)].map(Vec3::to_f64);
         coordinates.as_flattened().iter().all(|c| c.abs() <= GREATEST_LENGTH)
     }
 
-    /// The coefficient of each element, and zeros up to so many rows; none where it is 0.
+    /// Adds the coefficient of each element and zeros up to `rows`; nothing if it is 0.
     fn add_dampers(
         &mut self,
         damping: f64,
@@ -322,7 +321,7 @@ impl Assembly {
         Ok(DamperIndex(first))
     }
 
-    /// One for all elements of a group; none where it is 0.
+    /// Adds the clearance of all elements of a group; nothing if it is 0.
     fn add_clearance(&mut self, clearance: f64) -> Result<ClearanceIndex, Defect> {
         if clearance == 0.0 {
             return Ok(ClearanceIndex::NONE);
@@ -369,13 +368,12 @@ impl Assembly {
         self.model.loads.push(load);
     }
 
-    /// The groups there are.
+    /// The groups added so far.
     pub(crate) fn groups(&self) -> &[Group] {
         &self.model.groups
     }
 
-    /// \[m\] how large what a group holds is: the free length that its elements share, of bushings the
-    /// size of their joint.
+    /// \[m\] size of a group: the free length of its elements or, for bushings, the size of their joint.
     pub(crate) fn size(&self, number: usize) -> f64 {
         let Some(group) = self.model.groups.get(number) else { return 0.0 };
         let row = usize::from(group.element);
@@ -404,7 +402,7 @@ impl Assembly {
     }
 }
 
-/// The 16-bit index of the first of `count` further things.
+/// The 16-bit index of the first of `count` further rows.
 fn index(first: usize, count: usize, what: &'static str) -> Result<u16, Defect> {
     if first + count > LIMIT {
         return Err(Defect::TooMany(what));

@@ -1,4 +1,4 @@
-//! Bodies that were moved after they were given: what was given beside them goes with them.
+//! Bodies moved from their given poses: geometry given in the world moves with them.
 
 use dbd_kernel::{BodyIndex, BodyState, F64, Geometry, Vec3};
 
@@ -11,7 +11,7 @@ impl Assembly {
         &self.model.initial
     }
 
-    /// Moves a body: what is given at the poses of the file goes with it from now on.
+    /// Moves a body; geometry given at the poses of the file moves with it from now on.
     pub(crate) fn set_state(&mut self, row: usize, state: BodyState<F64>) {
         let places = self.model.initial.get_mut(row).zip(self.frames.get_mut(row));
         if let Some((stored, frame)) = places {
@@ -21,7 +21,7 @@ impl Assembly {
         }
     }
 
-    /// Gives a body the velocities of a state.
+    /// Sets the velocities of a body to those of a state.
     pub(crate) fn set_velocities(&mut self, row: usize, state: BodyState<F64>) {
         if let Some(stored) = self.model.initial.get_mut(row) {
             stored.velocity = state.velocity;
@@ -29,7 +29,7 @@ impl Assembly {
         }
     }
 
-    /// Says that all joints have been closed.
+    /// Marks all joints as closed.
     pub(crate) fn set_assembled(&mut self) {
         self.is_assembled = true;
     }
@@ -39,7 +39,7 @@ impl Assembly {
         self.is_assembled
     }
 
-    /// Where a point of a body was in the world when the body was given.
+    /// World position of a body point at the given pose of the body.
     pub(crate) fn given_place(&self, body: BodyIndex, point_b: Vec3<f64>) -> Vec3<f64> {
         match self.given.get(&body.row()) {
             Some(given) => given.position + given.orientation.rotation().to_world(point_b),
@@ -47,7 +47,7 @@ impl Assembly {
         }
     }
 
-    /// A point of the world in the axes of its owner when that was given.
+    /// A world point in body axes at the given pose of the body.
     pub(crate) fn given_point_in(&self, body: BodyIndex, point_w: Vec3<f64>) -> Vec3<f64> {
         match self.given.get(&body.row()) {
             Some(given) => given.orientation.rotation().to_body(point_w - given.position),
@@ -55,14 +55,14 @@ impl Assembly {
         }
     }
 
-    /// Where a point of a body is now that was given in the world.
+    /// Present position of a body point that was given in the world.
     pub(crate) fn carried_point(&self, body: BodyIndex, point_w: Vec3<f64>) -> Vec3<f64> {
         let Some(given) = self.given.get(&body.row()) else { return point_w };
         let arm = given.orientation.rotation().to_body(point_w - given.position);
         self.place(body, arm)
     }
 
-    /// What has become of a unit vector of a body that was given in the world.
+    /// Present direction of a unit vector of a body that was given in the world.
     pub(crate) fn carried_direction(&self, body: BodyIndex, direction_w: Vec3<f64>) -> Vec3<f64> {
         let Some(given) = self.given.get(&body.row()) else { return direction_w };
         let carried = self.direction_w(body, given.orientation.rotation().to_body(direction_w));

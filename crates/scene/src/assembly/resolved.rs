@@ -1,6 +1,6 @@
-//! What values of a scene's text stand for: points by their coordinates, directions where bodies have come to.
+//! Resolved values of the scene text: coordinates of named points, directions after bodies have moved.
 //!
-//! Kept where a value was read, for the long form of the scene.
+//! Stored by position in the text, for the long form of the scene.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use dbd_kernel::Vec3;
 use crate::assembly::Assembly;
 use crate::text::Value;
 
-/// What a value stands for.
+/// A resolved value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Resolved {
     /// \[m\] coordinates.
@@ -23,12 +23,12 @@ pub(crate) enum Resolved {
 }
 
 impl Assembly {
-    /// Says what a value stands for.
+    /// Stores the resolved form of a value.
     pub(crate) fn resolve(&self, value: &Value<'_>, resolved: Resolved) {
         self.resolved.borrow_mut().insert(value.span().start, resolved);
     }
 
-    /// Says it of a direction, where that is another than the one that is written.
+    /// Stores the resolved form of a direction if it differs from the written one.
     pub(crate) fn resolve_direction(
         &self,
         value: Option<Value<'_>>,
@@ -40,12 +40,12 @@ impl Assembly {
         }
     }
 
-    /// What values stand for, by where they begin in the text.
+    /// The resolved values by their position in the text.
     pub(crate) fn resolved(&self) -> BTreeMap<usize, Resolved> {
         self.resolved.borrow().clone()
     }
 
-    /// Whether a body is elsewhere than where it was given.
+    /// Whether a body has been moved from its given pose.
     pub(crate) fn has_moved(&self, row: usize) -> bool {
         self.given.contains_key(&row)
     }

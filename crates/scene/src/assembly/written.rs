@@ -1,4 +1,4 @@
-//! What bodies are written with: named points, ends of links, axes that are not the principal ones.
+//! Named points, ends of links, and body axes that are not the principal axes.
 
 use std::collections::BTreeMap;
 
@@ -18,27 +18,27 @@ impl Assembly {
         self.points = points;
     }
 
-    /// Where a body has a point of that name of its own, from its centre of mass, body axes.
+    /// The point of a body with this name, from the centre of mass in body axes.
     pub(crate) fn end(&self, body: BodyIndex, point: &str) -> Option<Vec3<f64>> {
         let mut ends = self.ends.get(body.row())?.iter();
         ends.find(|(name, _)| name == point).map(|(_, place)| *place)
     }
 
-    /// Gives a body points of its own.
+    /// Sets the named points of a body.
     pub(crate) fn set_ends(&mut self, body: BodyIndex, ends: Vec<(String, Vec3<f64>)>) {
         if let Some(known) = self.ends.get_mut(body.row()) {
             *known = ends;
         }
     }
 
-    /// Says how a body's principal axes lie in those that it is written in.
+    /// Sets the rotation from a body's principal axes to its given axes.
     pub(crate) fn set_turn(&mut self, body: BodyIndex, turn: Option<Quaternion<f64>>) {
         if let Some(known) = self.turns.get_mut(body.row()) {
             *known = turn;
         }
     }
 
-    /// A vector in the axes that a body is written in, in its principal axes.
+    /// Transforms a vector from a body's given axes to its principal axes.
     pub(crate) fn of_written(&self, body: BodyIndex, vector: Vec3<f64>) -> Vec3<f64> {
         match self.turns.get(body.row()) {
             Some(Some(turn)) => turn.rotation().to_body(vector),
@@ -46,7 +46,7 @@ impl Assembly {
         }
     }
 
-    /// The orientation of a body's principal axes, unit and scalar first, given that of the axes it is written in.
+    /// The orientation of a body's principal axes, unit and scalar first, from that of its given axes.
     pub(crate) fn orientation_of_written(&self, body: BodyIndex, written: [f64; 4]) -> [f64; 4] {
         match self.turns.get(body.row()) {
             Some(Some(turn)) => normalised(Quaternion::from_f64(written).product(*turn).to_f64()),
@@ -54,7 +54,7 @@ impl Assembly {
         }
     }
 
-    /// A turn in the axes that a body is written in, unit and scalar first, in its principal axes.
+    /// Transforms a rotation, unit and scalar first, from a body's given axes to its principal axes.
     pub(crate) fn turn_of_written(&self, body: BodyIndex, turn: [f64; 4]) -> [f64; 4] {
         match self.turns.get(body.row()) {
             Some(Some(own)) => {

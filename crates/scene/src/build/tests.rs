@@ -1,8 +1,8 @@
-//! The lines that cargo is told, and the file that is written.
+//! The lines for cargo and the file written.
 
 use super::*;
 
-/// A scene file in a folder of its own, gone with it.
+/// A scene file in a temporary folder.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -95,18 +95,18 @@ fn what_is_not_meant_is_a_warning_of_cargos() {
     assert!(written && lines.contains(&said), "{lines}");
 }
 
-/// 1 Tera-newton per metre and 2 kg: single precision bears 700 rad per step.
+/// 1 Tera-newton per metre and 2 kg: single precision allows 700 rad per step.
 #[test]
 fn a_step_that_the_matrix_does_not_bear_is_refused_with_the_longest_one() {
     let folder = Folder::new("stiff", &BALL.replace("2e4", "2e12"));
     let build = || Build::scene(folder.scene()).scheme("generalized-alpha");
     let (written, lines) = folder.write(&build());
     assert!(!written);
-    let most = "take a step of at most 699.9us with generalized-alpha in f32, not of 1ms";
+    let most = "limits the step to 699.9us with generalized-alpha in f32; it is 1ms";
     assert!(lines.contains(most), "{lines}");
     assert!(folder.write(&build().step("699.9us")).0);
     assert!(folder.write(&build().precision("f64")).0);
-    // Where no step is given, one that is borne is taken.
+    // Without a given step an allowed one is chosen.
     let stiff = BALL.replace("2e4", "2e12").replace("step = 1e-3\n", "");
     std::fs::write(folder.scene(), stiff).unwrap();
     let source = build().source().unwrap().source;
@@ -128,12 +128,12 @@ fn options_that_are_not_right_are_refused_with_what_would_be() {
     let ball = || Build::scene(folder.scene());
     assert_eq!(
         refused(&ball().precision("f16")),
-        "there is no precision \"f16\" (one of f64, f32, fixed)"
+        "unknown precision \"f16\" (expected one of f64, f32, fixed)"
     );
     assert!(refused(&ball().scheme("leapfrg")).contains("(did you mean leapfrog?"));
     assert!(refused(&ball().step("fast")).contains("for example 20us"));
     assert!(refused(&ball().step(-1.0)).contains("must be positive"));
-    assert!(refused(&ball().step(1e-60)).contains("f32 does not hold"));
+    assert!(refused(&ball().step(1e-60)).contains("f32 cannot represent"));
     assert_eq!(
         ball().step(2e-5).source().unwrap().source,
         ball().step("20us").source().unwrap().source

@@ -1,52 +1,52 @@
-//! What a joint asks of the poses of its two bodies, and how it changes as they move.
+//! Constraints of a joint on the poses of its two bodies, with derivatives.
 //!
-//! `(joint's halves, two poses) => residuals \[m\] with their derivatives`. A residual is a part of a
-//! displacement or an angle times the length at which a radian counts as a metre; derivatives are by a shift
-//! and by a turn times that length, both world. Angles are those of rotation vectors, so that a half turn is
-//! no zero. Bullo & Murray 1995 (logarithms on SO(3)); Haug, Computer Aided Kinematics, 1989, 9.4.
+//! `(joint's halves, two poses) => residuals \[m\] with their derivatives`. A residual is a part of a displacement or
+//! an angle times the length at which a radian counts as a metre; derivatives are with respect to a translation and a
+//! rotation times that length, both world. Angles are those of rotation vectors, so that a rotation of 180° is not a
+//! zero. Bullo & Murray 1995 (logarithms on SO(3)); Haug, Computer Aided Kinematics, 1989, 9.4.
 
 use dbd_kernel::{BodyIndex, Quaternion, Vec3};
 
 use crate::closure::pose::{Pose, length, logarithm};
 
-/// What is asked of the joint's two points.
+/// Constraint on the joint's two points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     /// They coincide.
     Point,
-    /// The second's lies on the first's line along the axis.
+    /// The second lies on the line through the first along its axis.
     Line,
 }
 
-/// What is asked of the joint's two triads.
+/// Constraint on the joint's two triads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Turn {
-    /// Nothing.
+    /// No constraint.
     Free,
-    /// Their axes have one direction.
+    /// Their axes are parallel.
     Axis,
     /// Their axes are normal to each other.
     Across,
-    /// They are one.
+    /// They coincide.
     All,
 }
 
-/// A joint as it is closed.
+/// A joint to be closed.
 #[derive(Clone, Debug)]
 pub(crate) struct Closure {
     /// Its bodies.
     pub(crate) ends: [BodyIndex; 2],
-    /// Of its points.
+    /// Constraint on its points.
     pub(crate) place: Place,
-    /// Of its triads.
+    /// Constraint on its triads.
     pub(crate) turn: Turn,
     /// \[m\] a point of each body, body axes.
     pub(crate) points: [Vec3<f64>; 2],
-    /// A right-handed triad of each body, the third its axis: what turns the body's axes to it.
+    /// A right-handed triad of each body with the joint axis third: the rotation from the body axes to it.
     pub(crate) triads: [Quaternion<f64>; 2],
 }
 
-/// How far a joint is open.
+/// Gap of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Opening {
     /// \[m\].
@@ -55,12 +55,12 @@ pub(crate) struct Opening {
     pub(crate) angle: f64,
 }
 
-/// A number that is 0 where the joint is closed.
+/// A residual, 0 if the joint is closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Row {
     /// \[m\].
     pub(super) residual: f64,
-    /// Per body, by its shift (3) and by its turn times the length (3).
+    /// Per body, derivatives with respect to translation (3) and rotation times the length (3).
     pub(super) slopes: [[f64; 6]; 2],
 }
 
@@ -74,7 +74,7 @@ impl Closure {
         let mut rows = Vec::with_capacity(6);
         let mut along = |e: Vec3<f64>, is_of_first: bool| {
             let arms = [0, 1].map(|end| (places[end] - poses[end].position).cross(e));
-            // The direction turns with the first body.
+            // The direction rotates with the first body.
             let turning = if is_of_first { e.cross(gap) } else { Vec3::ZERO };
             rows.push(Row {
                 residual: e.dot(gap),
@@ -113,7 +113,7 @@ impl Closure {
         rows
     }
 
-    /// How far it is open.
+    /// Its gap.
     pub(crate) fn opening(&self, all: &[Pose]) -> Opening {
         let poses = self.poses(all);
         let gap = poses[1].place(self.points[1]) - poses[0].place(self.points[0]);
@@ -136,17 +136,17 @@ impl Closure {
         Opening { distance, angle }
     }
 
-    /// How the angle about its axis changes, times the length: by shifts and turns times it, as of a row.
+    /// Derivative of the angle about its axis times the length, in the columns of a row.
     pub(super) fn turning(&self, all: &[Pose]) -> [[f64; 6]; 2] {
         let [[_, _, axis], _] = self.world_triads(&self.poses(all));
         [slopes(Vec3::ZERO, -axis), slopes(Vec3::ZERO, axis)]
     }
 
-    /// How the place of its second point along its axis changes, likewise.
+    /// Derivative of the position of its second point along its axis, likewise.
     pub(super) fn sliding(&self, all: &[Pose], scale: f64) -> [[f64; 6]; 2] {
         let poses = self.poses(all);
         let [[_, _, axis], _] = self.world_triads(&poses);
-        // That point of the first body which is where the second's is.
+        // The point of the first body that coincides with that of the second.
         let place = poses[1].place(self.points[1]);
         let arms = poses.map(|pose| (place - pose.position).cross(axis) * (1.0 / scale));
         [slopes(-axis, -arms[0]), slopes(axis, arms[1])]
@@ -163,16 +163,16 @@ impl Closure {
         })
     }
 
-    /// The rotation vector from the first axis to the second, in the first triad, and by what turns of
-    /// the second body beside the first, world, each part changes.
+    /// The rotation vector from the first axis to the second, in the first triad, and the derivative of each
+    /// component with respect to the relative rotation of the second body, world.
     fn tilt(&self, poses: &[Pose; 2]) -> [(f64, Vec3<f64>); 2] {
         let [[e1, e2, n], [_, _, m]] = self.world_triads(poses);
         let across = n.cross(m);
         let (sine, cosine) = (length(across), n.dot(m));
         let angle = libm::atan2(sine, cosine);
-        // About no axis in particular where there is no tilt or a half turn.
+        // The axis of rotation is arbitrary at a tilt of 0° or 180°.
         let axis = if sine > 1e-12 { across * (1.0 / sine) } else { e1 };
-        // The axis turns about the first, the quicker the less there is of a tilt.
+        // The axis of rotation rotates about the first axis, the faster the smaller the tilt.
         let ratio = if sine > 1e-12 { angle / sine } else { 1.0 };
         let (side, towards) = (n.cross(axis), m.cross(axis));
         [e1, e2].map(|e| {
@@ -181,8 +181,8 @@ impl Closure {
         })
     }
 
-    /// By how much the angle between the axes is less than a right one, and by what turns of the second body
-    /// beside the first that changes.
+    /// 90° less the angle between the axes, and its derivative with respect to the relative rotation of the second
+    /// body.
     fn squint(&self, poses: &[Pose; 2]) -> (f64, Vec3<f64>) {
         let [[e1, _, n], [_, _, m]] = self.world_triads(poses);
         let across = m.cross(n);
@@ -248,7 +248,7 @@ mod tests {
         (Place::Point, Turn::All),
     ];
 
-    /// Poses near each other and far apart, one almost half a turn.
+    /// Poses near each other and far apart, one rotated by almost 180°.
     const POSES: [[[f64; 6]; 2]; 4] = [
         [[0.0, 0.0, 0.0, 0.1, 0.2, -0.1], [0.1, 0.0, 0.05, 0.6, -0.8, -0.4]],
         [[1.0, -2.0, 0.5, 0.4, 0.2, -1.1], [0.3, 0.7, 0.4, -0.9, 0.3, 1.2]],
@@ -286,7 +286,7 @@ mod tests {
         }
     }
 
-    /// So many rows as freedoms are held, and none is 0 where something is open.
+    /// There are as many rows as constrained freedoms, and an open joint has a nonzero residual.
     #[test]
     fn a_joint_is_closed_where_its_halves_meet_and_only_there() {
         for ((place, turn), held) in ALL.into_iter().zip([3, 5, 4, 4, 5, 6]) {
@@ -299,8 +299,7 @@ mod tests {
             assert!((norm - distance * distance - angle * angle).abs() < 1e-13);
             assert!(distance > 0.1 && (angle > 0.1 || turn == Turn::Free));
 
-            // The second half put on the first, turned by a quarter about the second of its axes for
-            // those that are to be across.
+            // The second half is placed on the first, rotated by 90° about its second axis for perpendicular axes.
             let at = poses[0].place(closure.points[0]);
             let arm = at - poses[1].position;
             closure.points[1] = poses[1].orientation.rotation().to_body(arm);
@@ -313,7 +312,7 @@ mod tests {
         }
     }
 
-    /// Axes that point against each other are as far apart as can be, not closed.
+    /// Antiparallel axes have the largest gap and are not closed.
     #[test]
     fn a_half_turn_is_open() {
         let mut closure = closure(Place::Point, Turn::Axis);

@@ -1,6 +1,6 @@
-//! The joints of an island, brought together.
+//! Closing the joints of an island.
 //!
-//! `(island, poses) => poses where its joints are closed, what they hold`.
+//! `(island, poses) => poses where its joints are closed, constraints`.
 
 use crate::closure::constraint::Closure;
 use crate::closure::island::Island;
@@ -9,15 +9,15 @@ use crate::closure::nearest::approach;
 use crate::closure::newton::{Budget, CAREFUL, newton};
 use crate::closure::pose::Pose;
 
-/// What the joints of an island hold.
+/// Constraints of the joints of an island.
 pub(super) struct Held {
-    /// Constraints.
+    /// Number of constraints.
     pub(super) rows: usize,
-    /// Of which none follows from the others.
+    /// Number of independent constraints.
     pub(super) rank: usize,
 }
 
-/// Brings the joints of an island together where they are not; what they then hold.
+/// Closes the joints of an island and returns their constraints.
 pub(super) fn close(
     island: &Island,
     closures: &[Closure],

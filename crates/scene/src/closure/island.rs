@@ -1,7 +1,7 @@
-//! Bodies that joints hang together, and what all these joints ask of them.
+//! Bodies connected by joints, and the constraints of these joints.
 //!
-//! `(joints, which bodies may move) => islands; (island, poses) => rows and residuals`. The world and bodies that do
-//! not move join nothing to anything.
+//! `(joints, which bodies may move) => islands; (island, poses) => rows and residuals`. The world and fixed bodies
+//! connect nothing.
 
 use crate::closure::constraint::{Closure, Opening};
 use crate::closure::least_norm::dot;
@@ -9,7 +9,7 @@ use crate::closure::pose::Pose;
 use crate::parts::Parts;
 use dbd_kernel::Vec3;
 
-/// Bodies that hang together.
+/// Connected bodies.
 pub(super) struct Island {
     /// Their rows, ascending.
     pub(super) bodies: Vec<usize>,
@@ -25,7 +25,7 @@ pub(super) struct Equations {
     pub(super) residuals: Vec<f64>,
 }
 
-/// How the equations of an island are written.
+/// Scaling of the equations of an island.
 pub(super) struct System<'s> {
     pub(super) island: &'s Island,
     pub(super) closures: &'s [Closure],
@@ -33,10 +33,10 @@ pub(super) struct System<'s> {
     pub(super) length: f64,
 }
 
-/// A joint is as good as closed that has less than this share of the sum of all gaps' squares.
+/// A joint counts as closed if its squared gap is below this fraction of the sum of all squared gaps.
 const ALMOST_CLOSED: f64 = 1e-12;
 
-/// A joint was as good as closed of which the square of the gap at first was less than this share of the largest.
+/// A joint counts as initially closed if its squared gap was below this fraction of the largest.
 const SHUT: f64 = 1e-2;
 
 impl Island {
@@ -75,9 +75,9 @@ impl Island {
         islands
     }
 
-    /// How far its joints that were open most at first are when all others are closed, from where what cannot be
-    /// closed is spread over all of them: what no motion changes of the residuals r is r·r/|r|, whichever
-    /// joints have it.
+    /// Gaps of the joints that were open most at first when all others are closed, from the result in which the gap
+    /// is spread over all of them: the part of the residuals r that no motion changes is r·r/|r|, whichever joints
+    /// have it.
     pub(super) fn gather(&self, length: f64, first: &[Opening], openings: &mut [Opening]) {
         let square = |opening: &Opening| {
             let angle = length * opening.angle;
@@ -131,7 +131,7 @@ impl System<'_> {
         equations
     }
 
-    /// \[m\] what the residuals of closed joints may be by rounding alone.
+    /// \[m\] residuals of closed joints that rounding explains.
     pub(super) fn rounding(&self, poses: &[Pose]) -> f64 {
         let far = |v: Vec3<f64>| v.x.abs().max(v.y.abs()).max(v.z.abs());
         let bodies = self.island.bodies.iter().map(|body| far(poses[*body].position));
@@ -140,7 +140,7 @@ impl System<'_> {
         8.0 * f64::EPSILON * bodies.chain(points).fold(self.length, f64::max)
     }
 
-    /// \[m\] the residuals from which on a step that does not help ends the search.
+    /// \[m\] residuals below which a step without improvement ends the search.
     pub(super) fn done(&self, poses: &[Pose]) -> f64 {
         1e3 * self.rounding(poses)
     }
@@ -155,7 +155,7 @@ impl System<'_> {
         moved
     }
 
-    /// What leads from some poses to others, in the columns of the equations.
+    /// Displacement from some poses to others, in the columns of the equations.
     pub(super) fn since(&self, poses: &[Pose], others: &[Pose]) -> Vec<f64> {
         let of_body = |body: &usize| {
             let [shift, turn] = poses[*body].since(&others[*body]);

@@ -1,24 +1,24 @@
-//! Rank and solutions of least norm of a dense system of equations.
+//! Rank and least-norm solutions of a dense linear system.
 //!
-//! `rows => rank; (rows, residuals, damping) => the shortest step`. Orthonormal directions by Gram and Schmidt
-//! with the longest remaining row first, each twice over (Giraud et al. 2005: twice is enough): the rank is the
-//! number of rows of which more is left than a share of the longest. Where rows depend on others, or the step is
-//! damped, its shares in the directions are found by least squares, by Householder's reflections: no normal
-//! equations. What no row couples stays apart to the last bit, so that what is planar stays so. A library's
-//! kernels take what instructions they find: their bits differ, these sums have one written order.
+//! `rows => rank; (rows, residuals, damping) => the shortest step`. Orthonormal directions by Gram and Schmidt with
+//! the longest remaining row first, each twice over (Giraud et al. 2005: twice is enough): the rank is the number of
+//! rows with a remainder above a fraction of the longest row. With dependent rows or damping the components in these
+//! directions are found by least squares with Householder reflections, not by normal equations. Uncoupled unknowns
+//! stay uncoupled to the last bit, so planar systems stay planar. Sums have a fixed order, unlike those of linear
+//! algebra libraries, so the bits are the same on every host.
 
-/// A matrix as orthonormal directions and the shares of its rows in them.
+/// A matrix as orthonormal directions and the components of its rows in them.
 pub(super) struct Factors {
-    /// Of each row, in the order in which they were taken, its shares in the directions.
+    /// Components of each row in the directions, in the order of processing.
     shares: Vec<Vec<f64>>,
-    /// Which row is which.
+    /// Original index of each row.
     order: Vec<usize>,
-    /// Orthonormal; what they span the rows span.
+    /// Orthonormal basis of the row space.
     directions: Vec<Vec<f64>>,
     columns: usize,
 }
 
-/// `x ↦ x − v·(2·v·x/v·v)`, of what lies from an entry on.
+/// `x ↦ x − v·(2·v·x/v·v)`, for the entries from a given index on.
 struct Reflection {
     from: usize,
     v: Vec<f64>,
@@ -27,8 +27,8 @@ struct Reflection {
 }
 
 impl Factors {
-    /// Of rows of equal length. A row of which less than `threshold` of the longest is left beside
-    /// the others depends on them.
+    /// From rows of equal length. A row depends on the others if its remainder is below `threshold` times the longest
+    /// row.
     pub(super) fn of(rows: &[Vec<f64>], columns: usize, threshold: f64) -> Self {
         let mut left = rows.to_vec();
         let mut shares = vec![Vec::new(); rows.len()];
@@ -70,8 +70,8 @@ impl Factors {
         self.directions.len()
     }
 
-    /// The shortest step that takes the rows' values by `residuals` nearest to 0: `δ = −J⁺·r`;
-    /// with damping > 0, `|J·δ + r|² + (damping·|δ|)²` is least.
+    /// The least-norm step towards zero `residuals`: `δ = −J⁺·r`; with damping > 0 it minimises
+    /// `|J·δ + r|² + (damping·|δ|)²`.
     pub(super) fn step(&self, residuals: &[f64], damping: f64) -> Vec<f64> {
         let rank = self.rank();
         let targets = self.order.iter().map(|row| -residuals[*row]);
@@ -97,7 +97,7 @@ impl Factors {
         step
     }
 
-    /// What of a vector none of the rows holds.
+    /// The component of a vector in the null space of the rows.
     pub(super) fn free_part(&self, vector: &[f64]) -> Vec<f64> {
         let mut free = vector.to_vec();
         for _ in 0..2 {
@@ -109,7 +109,7 @@ impl Factors {
     }
 }
 
-/// Takes from a vector what lies along a unit vector; how much that was.
+/// Removes the component along a unit vector from a vector and returns it.
 fn take_out(vector: &mut [f64], direction: &[f64]) -> f64 {
     let share = dot(vector, direction);
     if share != 0.0 {
@@ -119,12 +119,12 @@ fn take_out(vector: &mut [f64], direction: &[f64]) -> f64 {
 }
 
 impl Reflection {
-    /// The one that takes what lies from an entry on, and is not 0, to the first of its axes, and how
-    /// long it is there.
+    /// The reflection of the nonzero entries from a given index on to the first of these axes, and their resulting
+    /// length.
     fn onto_first(vector: &[f64], from: usize) -> (Self, f64) {
         let mut v = vector[from..].to_vec();
         let norm = libm::sqrt(dot(&v, &v));
-        // Away from where the entry is, so that nothing cancels.
+        // With the sign opposite to the entry, which avoids cancellation.
         let diagonal = if v[0] > 0.0 { -norm } else { norm };
         v[0] -= diagonal;
         let square = dot(&v, &v);
@@ -151,7 +151,7 @@ fn forward(rows: &[Vec<f64>], targets: impl Iterator<Item = f64>) -> Vec<f64> {
     solution
 }
 
-/// The shares of independent columns whose sum is nearest to the targets.
+/// The coefficients of independent columns whose sum is nearest to the targets.
 fn least_squares(mut columns: Vec<Vec<f64>>, mut targets: Vec<f64>) -> Vec<f64> {
     let count = columns.len();
     for i in 0..count {
@@ -172,7 +172,8 @@ fn least_squares(mut columns: Vec<Vec<f64>>, mut targets: Vec<f64>) -> Vec<f64> 
     solution
 }
 
-/// `((s₀ + s₁) + (s₂ + s₃)) + rest`, sₖ over the entries k, k + 4, …; the rest of fewer than four last.
+/// `((s₀ + s₁) + (s₂ + s₃)) + rest`, sₖ over the entries k, k + 4, …; the up to three remaining entries are added
+/// last.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a, b) = (&a[..a.len().min(b.len())], &b[..a.len().min(b.len())]);
     let mut sums = [0.0; 4];
@@ -218,8 +219,7 @@ mod tests {
         }
     }
 
-    /// A step solves what can be solved, and nothing of it is free; what cannot be solved is
-    /// normal to the columns.
+    /// A step solves the consistent part and has no null-space component; the residual is normal to the columns.
     #[test]
     fn a_step_is_least_in_norm_and_in_what_is_left() {
         for (rows, columns, rank) in [(5, 9, 5), (9, 5, 5), (9, 9, 4), (12, 30, 7)] {
@@ -238,7 +238,7 @@ mod tests {
             }
             let free = factors.free_part(&step);
             assert!(free.iter().all(|x| x.abs() < 1e-13), "{free:?}");
-            // What is free changes no row, and a second time nothing.
+            // The null-space component changes no row, and the projection is idempotent.
             let some = factors.free_part(&noise(columns, 999));
             assert!(matrix.iter().all(|row| dot(row, &some).abs() < 1e-13));
             assert_eq!(rank == columns, some.iter().all(|x| x.abs() < 1e-13));

@@ -1,11 +1,11 @@
-//! What joints leave free at a pose, beyond the first order.
+//! Freedoms that joints leave at a pose, beyond the first order.
 //!
-//! `(joints, closed poses) => freedoms, bodies that move`. The rank of the constraints counts motions of first
-//! order; at a singular pose some of these end there, and others begin only at second order. So a random
-//! combination of them is followed to a closed pose nearby, and the rank is taken there. From that pose random
-//! motions of first order are followed again. Where all of them lead to closed poses, the rank is right. Where they
-//! do not, because the poses nearby are singular, too (a shaky linkage: Müller, J. Mechanisms Robotics 8 (2016)
-//! 041013), the freedoms are the number of independent displacements that were found.
+//! `(joints, closed poses) => freedoms, bodies that move`. The rank of the constraints counts motions of first order;
+//! at a singular pose some of these do not exist, and others begin only at second order. So a random combination of
+//! them is followed to a closed pose nearby, and the rank is taken there. From that pose random motions of first
+//! order are followed again. Where all of them lead to closed poses, the rank is right. Where they do not, because
+//! the poses nearby are singular, too (a shaky linkage: Müller, J. Mechanisms Robotics 8 (2016) 041013), the number
+//! of freedoms is the number of independent displacements found.
 
 use crate::closure::constraint::Closure;
 use crate::closure::island::{Island, System};
@@ -13,35 +13,37 @@ use crate::closure::least_norm::{Factors, dot};
 use crate::closure::newton::{Budget, CAREFUL, descend};
 use crate::closure::pose::{Pose, length};
 
-/// \[rad\] how far a motion is followed first, and then from there.
+/// \[rad\] length by which a motion is followed first, and from there.
 const FOLLOWED: [f64; 2] = [0.1, 0.05];
 
-/// A motion is lost that keeps less than this share of its way.
+/// A motion is discarded if it keeps less than this fraction of its displacement.
 const LOST: f64 = 0.1;
 
-/// A motion is kept that strays by less than this share of its way, and all are where so many random ones are.
+/// A motion is kept if it deviates by less than this fraction of its displacement; all are kept if this number of
+/// random ones are.
 const KEPT: f64 = 0.05;
 const ENOUGH: usize = 3;
 
-/// A body stands still that moves by less than this share of the way, ten times what closing leaves.
+/// A body counts as fixed if it moves by less than this fraction of the displacement, ten times the closing error.
 const STILL: f64 = 2e-3;
 
-/// A body stands still to first order along whose axes less than this share of a unit velocity's square is free.
+/// A body is fixed to first order if along each axis less than this fraction of the square of a unit velocity is
+/// free.
 const HELD: f64 = 1e-4;
 
-/// Most steps that close the joints again.
+/// Maximum number of steps to close the joints again.
 const STEPS: usize = 40;
 
 /// Numbers of freedoms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Mobility {
-    /// Motions that exist: what the poses nearby have.
+    /// Motions that exist at poses nearby.
     pub(crate) freedoms: usize,
-    /// Motions to first order, at these very poses: 6 per body less the rank.
+    /// Motions to first order at these poses: 6 per body less the rank.
     pub(crate) first_order: usize,
 }
 
-/// What joints leave free of all bodies at closed poses.
+/// Freedoms that joints leave to all bodies at closed poses.
 pub(crate) fn mobility(closures: &[Closure], poses: &[Pose], scale: f64) -> Mobility {
     let mut all = Mobility::default();
     let mut joined = 0;
@@ -50,14 +52,14 @@ pub(crate) fn mobility(closures: &[Closure], poses: &[Pose], scale: f64) -> Mobi
         let (free, redundant) = Free::at(&system, poses);
         joined += island.bodies.len();
         all.first_order += free.count();
-        // Independent constraints leave what their rank leaves (theorem of implicit functions).
+        // With independent constraints the rank is exact (implicit function theorem).
         all.freedoms += if redundant { free.nearby(&system, poses) } else { free.count() };
     }
     let loose = 6 * (poses.len() - joined);
     Mobility { freedoms: all.freedoms + loose, first_order: all.first_order + loose }
 }
 
-/// Bodies that joints hold still to first order; those that may not move are not among them.
+/// Bodies that joints fix to first order, excluding those that may not move.
 pub(crate) fn still(
     closures: &[Closure],
     poses: &[Pose],
@@ -80,7 +82,7 @@ pub(crate) fn still(
     still
 }
 
-/// Whether each body moves along with what the joints leave free, of any order.
+/// Whether each body moves in the free motions of any order.
 pub(crate) fn moving(
     closures: &[Closure],
     poses: &[Pose],
@@ -104,7 +106,7 @@ pub(crate) fn moving(
 struct Free(Factors, usize);
 
 impl Free {
-    /// Also whether there are constraints that others imply.
+    /// Also whether there are redundant constraints.
     fn at(system: &System<'_>, poses: &[Pose]) -> (Self, bool) {
         let rows = system.equations(poses).rows;
         let factors = Factors::of(&rows, system.columns(), CAREFUL);
@@ -126,7 +128,8 @@ impl Free {
             let Some((way, there)) = free.follow(system, &near, FOLLOWED[1], sample) else {
                 return 0;
             };
-            // Across the motions of first order a path bends at second order, along them only at third.
+            // A path deviates from the motions of first order at second order normal to them and at third order along
+            // them.
             let moved = free.0.free_part(&system.since(&there, &near));
             let strayed: Vec<f64> =
                 moved.iter().zip(&way).map(|(moved, way)| moved - way).collect();
@@ -141,8 +144,7 @@ impl Free {
         independent(&displacements, self.1)
     }
 
-    /// A random one of the motions of first order, and the closed poses to which it leads; `None` where there is
-    /// none.
+    /// A random motion of first order and the closed poses to which it leads; `None` if there are none.
     fn follow(
         &self,
         system: &System<'_>,
@@ -164,7 +166,7 @@ impl Free {
     }
 }
 
-/// Of displacements in parts of their ways, how many are independent.
+/// Number of independent displacements, relative to their lengths.
 fn independent(displacements: &[Vec<f64>], columns: usize) -> usize {
     let longest = displacements.iter().map(|row| dot(row, row)).fold(0.0, f64::max);
     let threshold = LOST / libm::sqrt(longest).max(LOST);

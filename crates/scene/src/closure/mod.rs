@@ -1,9 +1,9 @@
-//! Closing joints that are open: bodies move until every joint's two halves meet.
+//! Closing open joints: bodies are moved until the two halves of every joint meet.
 //!
-//! `(joints' halves in body axes, poses) => poses, what stays open, freedoms`. On SE(3), by Gauss and
-//! Newton with steps of least norm ([`newton`]), then along what is free back towards the given poses
-//! ([`nearest`]), each group of bodies that hang together for itself. Velocities that the joints allow
-//! are a linear problem more ([`rates`]). Arithmetic, roots and libm's functions in one written order: the same bits on every host.
+//! `(joints' halves in body axes, poses) => poses, what stays open, freedoms`. Gauss–Newton on SE(3) with least-norm
+//! steps ([`newton`]), then along the free motions back towards the given poses ([`nearest`]), separately for each
+//! group of connected bodies. Velocities that the joints allow are a further linear problem ([`rates`]). Operations
+//! have a fixed order and use libm: the same bits on every host.
 
 mod constraint;
 mod held;
@@ -23,43 +23,43 @@ pub(crate) use rates::{Contradiction, Motion, Prescribed, motions};
 use crate::closure::island::Island;
 use crate::closure::newton::Budget;
 
-/// How bodies are brought together.
+/// Settings of the closure.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings {
     /// \[m\] the length at which a radian counts as a metre.
     pub(crate) length: f64,
-    /// Most steps that are computed for bodies that hang together.
+    /// Maximum number of steps for connected bodies.
     pub(crate) iterations: usize,
 }
 
-/// Where bodies have come to.
+/// Result of the closure.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Outcome {
-    /// All bodies.
+    /// Poses of all bodies.
     pub(crate) poses: Vec<Pose>,
-    /// What stays open, per joint.
+    /// Remaining gap of each joint.
     pub(crate) openings: Vec<Opening>,
-    /// Steps that were computed.
+    /// Number of steps computed.
     pub(crate) iterations: usize,
-    /// What is left free of the bodies that may move.
+    /// Freedoms of the bodies that may move.
     pub(crate) freedoms: usize,
-    /// Constraints that others imply.
+    /// Redundant constraints.
     pub(crate) held_twice: usize,
 }
 
-/// The largest island: the time grows with the third power.
+/// Size limit of an island: the time grows with the third power.
 pub(crate) const MOST_BODIES: usize = 200;
 
-/// Bodies, of those that hang together and may move, of the largest island.
+/// Number of movable bodies of the largest island.
 pub(crate) fn largest_island(closures: &[Closure], movable: &[bool]) -> usize {
     let islands = Island::all(closures, movable);
     islands.iter().map(|island| island.bodies.len()).max().unwrap_or(0)
 }
 
-/// \[m\] root mean square of the arms from centres of mass to joints of the bodies that may move: the length at
-/// which a radian counts as a metre. 1 where all arms are rounding.
+/// \[m\] root mean square of the distances from centres of mass to joints of the movable bodies: the length at which
+/// a radian counts as a metre. 1 if all distances are rounding errors.
 pub(crate) fn arm(closures: &[Closure], movable: &[bool]) -> f64 {
-    /// An arm is rounding that is less than this share of the joint's coordinates in the world.
+    /// A distance below this fraction of the joint's world coordinates is a rounding error.
     const ROUNDING: f64 = 1e-12;
     let (mut sum, mut count, mut largest) = (0.0, 0.0, 0.0_f64);
     for closure in closures {
@@ -80,7 +80,7 @@ pub(crate) fn arm(closures: &[Closure], movable: &[bool]) -> f64 {
     }
 }
 
-/// Brings the joints together. Bodies that may not move are as the world is.
+/// Closes the joints. Bodies that may not move count as the world.
 pub(crate) fn close(
     closures: &[Closure],
     given: &[Pose],
@@ -103,8 +103,7 @@ pub(crate) fn close(
     outcome
 }
 
-/// How far the joints that were open at first are, about, when all others are closed: what an outcome has
-/// spread over all of them.
+/// Approximate gaps of the initially open joints when all others are closed; a closure spreads these over all joints.
 pub(crate) fn gaps(
     closures: &[Closure],
     given: &[Pose],

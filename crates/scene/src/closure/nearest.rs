@@ -1,21 +1,21 @@
-//! From poses where the joints are closed to the nearest such: what is free moves back.
+//! From closed poses to the closed poses nearest to the given ones.
 //!
-//! `(given poses, closed poses) => closed poses`. A step takes what of the way since the given poses no
-//! constraint holds back, then the joints are closed again; shorter where that is no nearer. At the end that
-//! way is normal to all motions that joints allow.
+//! `(given poses, closed poses) => closed poses`. A step removes the unconstrained part of the displacement from the
+//! given poses, then the joints are closed again; the step is shortened if the result is not nearer. The final
+//! displacement is normal to all motions that the joints allow.
 
 use crate::closure::island::System;
 use crate::closure::least_norm::{Factors, dot};
 use crate::closure::newton::{Budget, CAREFUL, newton};
 use crate::closure::pose::Pose;
 
-/// The share of the way that may be left of what is free.
+/// Largest free fraction of the displacement at the end.
 const FREE_SHARE: f64 = 1e-6;
 
-/// Most steps back, and halvings of one.
+/// Maximum number of steps, and of halvings per step.
 const MOST: [usize; 2] = [20, 6];
 
-/// Moves closed poses as near to the given ones as can be.
+/// Moves closed poses to the closed poses nearest to the given ones.
 pub(super) fn approach(
     system: &System<'_>,
     given: &[Pose],

@@ -1,54 +1,52 @@
-//! Steps of least norm to where all joints are closed, or as nearly so as can be.
+//! Least-norm steps to poses where all joints are closed, or to the smallest gaps.
 //!
-//! `(equations, poses) => poses`. Gauss and Newton; a step that does not shrink the residuals is damped
-//! (Levenberg 1944, Marquardt 1963). Constraints that almost follow from others hold nothing at first: written
-//! digits make them contradict each other in the last of these. Only where that does not close the joints
-//! they count as well.
+//! `(equations, poses) => poses`. Gauss–Newton; a step that does not reduce the residuals is damped (Levenberg 1944,
+//! Marquardt 1963). Almost redundant constraints are ignored at first, because decimal rounding in the scene makes
+//! them contradict each other. They count only if the joints do not close without them.
 
 use crate::closure::island::System;
 use crate::closure::least_norm::Factors;
 use crate::closure::pose::Pose;
 
-/// A constraint of which less is left beside the others than this share of the longest follows from
-/// them.
+/// A constraint is redundant if its remainder is below this fraction of the longest row.
 pub(super) const CAREFUL: f64 = 1e-4;
 
-/// The same where it is the last hope.
+/// The same in the last attempt.
 const DARING: f64 = 1e-9;
 
-/// The same where a motion is looked for that is as good as free.
+/// The same in the search for an almost free motion.
 const SINGULAR: f64 = 1e-2;
 
-/// Unknowns along which that is tried.
+/// Number of unknowns along which this is tried.
 const KICKS: usize = 3;
 
-/// \[rad\] the largest turn of a step; a step that turns further is not to be trusted.
+/// \[rad\] largest rotation in a step.
 const LARGEST_TURN: f64 = 0.7;
 
-/// A step helps that shrinks the residuals by this share.
+/// A step is accepted if it reduces the residuals by this fraction.
 const HELPS: f64 = 1e-4;
 
-/// The first damping, of the longest row, and the last.
+/// First and last damping, relative to the longest row.
 const DAMPING: [f64; 2] = [1e-3, 1e3];
 
-/// Steps that may yet be computed.
+/// Remaining steps.
 pub(super) struct Budget {
     left: usize,
     given: usize,
 }
 
 impl Budget {
-    /// So many.
+    /// A budget of this number of steps.
     pub(super) fn of(given: usize) -> Self {
         Self { left: given, given }
     }
 
-    /// How many were computed.
+    /// Number of steps computed.
     pub(super) fn spent(&self) -> usize {
         self.given - self.left
     }
 
-    /// Takes one, where there is one left.
+    /// Uses one step if any is left.
     pub(super) fn take(&mut self) -> bool {
         let some = self.left > 0;
         self.left = self.left.saturating_sub(1);
@@ -56,7 +54,7 @@ impl Budget {
     }
 }
 
-/// Brings the joints of a system together, or as near as can be.
+/// Closes the joints of a system, or minimises their gaps.
 pub(super) fn newton(system: &System<'_>, poses: &mut Vec<Pose>, budget: &mut Budget) {
     for threshold in [CAREFUL, DARING] {
         descend(system, poses, threshold, budget);
@@ -74,8 +72,8 @@ pub(super) fn newton(system: &System<'_>, poses: &mut Vec<Pose>, budget: &mut Bu
     }
 }
 
-/// Steps away from where no motion of first order closes the joints any further: at a dead centre one of
-/// second order may. Along the unknowns that are most free, as far as the square of which is what stays open.
+/// Steps away from poses where no motion of first order closes the joints further: at a dead centre one of second
+/// order may. The step is along the freest unknowns, and its length is the square root of the gap.
 fn kicks(system: &System<'_>, poses: &[Pose]) -> Vec<Vec<f64>> {
     let equations = system.equations(poses);
     let norm = equations.norm();
@@ -87,7 +85,7 @@ fn kicks(system: &System<'_>, poses: &[Pose]) -> Vec<Vec<f64>> {
         let part = factors.free_part(&unit);
         free.push((part[column], part));
     }
-    // Of equal ones the first.
+    // The first of equal ones.
     free.sort_by(|a, b| b.0.total_cmp(&a.0));
     free.truncate(KICKS);
     free.retain(|(share, _)| *share > 1e-6);
@@ -99,8 +97,8 @@ fn kicks(system: &System<'_>, poses: &[Pose]) -> Vec<Vec<f64>> {
     free.into_iter().flat_map(kick).collect()
 }
 
-/// Steps of least norm while they shrink the residuals. Constraints of which less than `threshold` of the
-/// longest is left beside the others hold nothing.
+/// Least-norm steps while they reduce the residuals. Constraints with a remainder below `threshold` times the longest
+/// row are ignored.
 pub(super) fn descend(
     system: &System<'_>,
     poses: &mut Vec<Pose>,
@@ -122,7 +120,7 @@ pub(super) fn descend(
                 damping = if damping <= DAMPING[0] { 0.0 } else { 0.1 * damping };
                 break;
             }
-            // At the end of the digits, or at the least there is.
+            // At rounding error, or at a minimum.
             if norm <= system.done(poses) || damping >= DAMPING[1] {
                 return;
             }
@@ -131,7 +129,7 @@ pub(super) fn descend(
     }
 }
 
-/// A step, shortened where it turns a body too far.
+/// A step, shortened if it rotates a body too far.
 fn within(system: &System<'_>, mut step: Vec<f64>) -> Vec<f64> {
     let turns = step
         .chunks_exact(6)

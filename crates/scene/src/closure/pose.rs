@@ -1,14 +1,13 @@
-//! Poses of bodies, and turns as vectors.
+//! Poses of bodies, and rotation vectors.
 //!
-//! A turn is a rotation vector in world axes, angle times axis; it acts from the left:
-//! `q ← exp(turn) ∘ q`.
+//! A rotation is a rotation vector in world axes, angle times axis; it acts from the left: `q ← exp(φ) ∘ q`.
 
 use dbd_kernel::vector::Rotation;
 use dbd_kernel::{Quaternion, Vec3};
 
 use crate::orientation::settled;
 
-/// Where a body is.
+/// Pose of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pose {
     /// \[m\] centre of mass, world.
@@ -19,14 +18,14 @@ pub(crate) struct Pose {
 }
 
 impl Pose {
-    /// That of the ground.
+    /// Pose of the ground.
     pub(crate) const WORLD: Self = Self {
         position: Vec3::ZERO,
         orientation: Quaternion::IDENTITY,
         rotation: Rotation::IDENTITY,
     };
 
-    /// A pose of a position and a unit quaternion.
+    /// A pose from a position and a unit quaternion.
     pub(crate) fn new(position: Vec3<f64>, orientation: Quaternion<f64>) -> Self {
         Self { position, orientation, rotation: orientation.rotation() }
     }
@@ -41,13 +40,13 @@ impl Pose {
         self.rotation.to_world(vector_b)
     }
 
-    /// The pose after a shift \[m\] and a turn \[rad\], both world.
+    /// The pose after a translation \[m\] and a rotation \[rad\], both world.
     pub(crate) fn moved(&self, shift: Vec3<f64>, turn: Vec3<f64>) -> Self {
         let turned = exponential(turn).product(self.orientation).to_f64();
         Self::new(self.position + shift, Quaternion::from_f64(settled(turned)))
     }
 
-    /// The shift \[m\] and the turn \[rad\] that lead from another pose to this.
+    /// The translation \[m\] and rotation \[rad\] from another pose to this one.
     pub(crate) fn since(&self, other: &Self) -> [Vec3<f64>; 2] {
         let turn = self.orientation.product(other.orientation.conjugate());
         [self.position - other.position, logarithm(turn)]
@@ -63,11 +62,11 @@ pub(crate) fn exponential(turn: Vec3<f64>) -> Quaternion<f64> {
     Quaternion { w: cosine, v: half * share }
 }
 
-/// The rotation vector \[rad\] of a unit quaternion, of at most half a turn.
+/// The rotation vector \[rad\] of a unit quaternion, of length at most π.
 pub(crate) fn logarithm(q: Quaternion<f64>) -> Vec3<f64> {
     let q = if q.w < 0.0 { Quaternion { w: -q.w, v: -q.v } } else { q };
     let sine = length(q.v);
-    // Of a turn too small for its sine to be squared the angle is twice the vector.
+    // If the square of the sine underflows, the angle is twice the vector.
     let share = if sine > 1e-150 { 2.0 * libm::atan2(sine, q.w) / sine } else { 2.0 };
     q.v * share
 }
@@ -89,7 +88,7 @@ mod tests {
             let found = logarithm(exponential(turn));
             assert!(length(found - turn) <= 1e-15 * (1.0 + 10.0 * angle), "{angle:e}");
         }
-        // Beyond half a turn it is the shorter way.
+        // Beyond 180° the result is the shorter rotation.
         assert!(
             length(logarithm(exponential(axis * 4.0)) - axis * (4.0 - core::f64::consts::TAU))
                 < 1e-14

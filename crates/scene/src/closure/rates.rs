@@ -1,8 +1,8 @@
 //! Velocities that joints allow, nearest to rest, with some of them prescribed.
 //!
-//! `(joints, poses, prescribed velocities and rates) => velocities, or what contradicts`. The derivatives of what joints
-//! ask, at poses where they are closed, times the velocities are 0; of all velocities for which that holds and
-//! that have what is prescribed it takes the least sum over the bodies of v² + (length·ω)².
+//! `(joints, poses, prescribed velocities and rates) => velocities, or what contradicts`. At closed poses the
+//! constraint derivatives times the velocities are 0; of all such velocities with the prescribed values the result
+//! minimises the sum over the bodies of v² + (length·ω)².
 
 use dbd_kernel::Vec3;
 
@@ -12,10 +12,10 @@ use crate::closure::least_norm::{Factors, dot};
 use crate::closure::newton::CAREFUL;
 use crate::closure::pose::Pose;
 
-/// What is prescribed may be missed by this share of the largest: what is written has six digits at least.
+/// Tolerance of prescribed values relative to the largest: the scene gives at least six digits.
 const MISSED: f64 = 1e-6;
 
-/// A motion that joints leave with less than this of its row is none.
+/// A motion counts as prevented if the joints leave less than this fraction of its row.
 const NO_MOTION: f64 = 1e-6;
 
 /// The motion of a body, world.
@@ -27,27 +27,27 @@ pub(crate) struct Motion {
     pub(crate) spin: Vec3<f64>,
 }
 
-/// What is prescribed.
+/// A prescribed velocity or rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Prescribed {
     /// \[m/s\] the velocity of a body's centre of mass, world.
     Velocity(usize, Vec3<f64>),
     /// \[rad/s\] the angular velocity of a body, world.
     Spin(usize, Vec3<f64>),
-    /// \[rad/s\] the angular velocity of a joint's second body beside its first about the axis.
+    /// \[rad/s\] the angular velocity of a joint's second body relative to its first about the axis.
     Turn(usize, f64),
     /// \[m/s\] the velocity of a joint's second body along the first one's axis.
     Slide(usize, f64),
 }
 
-/// What is prescribed and cannot be.
+/// A prescribed value that cannot be satisfied.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Contradiction {
-    /// Which of what is prescribed.
+    /// Index of the prescribed value.
     pub(crate) row: usize,
-    /// Whether joints alone leave no such motion, whatever else is prescribed.
+    /// Whether the joints alone prevent this motion.
     pub(crate) is_held: bool,
-    /// In its unit: what comes nearest to all that is prescribed; of a velocity how far it is off.
+    /// In its unit: the value nearest to all prescribed ones; for a velocity its deviation.
     pub(crate) nearest: f64,
 }
 
@@ -55,11 +55,11 @@ pub(crate) struct Contradiction {
 struct Equation {
     columns: Vec<f64>,
     value: f64,
-    /// What is prescribed by it.
+    /// Index of the prescribed value.
     source: usize,
 }
 
-/// The velocities of all bodies; of those without joints what is prescribed, or 0.
+/// The velocities of all bodies; without joints the prescribed ones, or 0.
 pub(crate) fn motions(
     closures: &[Closure],
     poses: &[Pose],
@@ -86,7 +86,7 @@ pub(crate) fn motions(
         residuals.extend(equations.iter().map(|row| -row.value));
         let found = Factors::of(&rows, system.columns(), CAREFUL).step(&residuals, 0.0);
         let miss = |row: usize| dot(&rows[row], &found) + residuals[row];
-        // A joint that gives way is the fault of what is prescribed.
+        // Residuals of joints are caused by prescribed values.
         let misses = (0..rows.len()).any(|row| miss(row).abs() > MISSED * largest);
         if misses {
             return Err(contradiction(&equations, &rows, held, miss, prescribed, length));
@@ -99,7 +99,7 @@ pub(crate) fn motions(
         }
     }
     for given in prescribed {
-        // To the last bit.
+        // Exact to the last bit.
         match *given {
             Prescribed::Velocity(body, velocity) => motions[body].velocity = velocity,
             Prescribed::Spin(body, spin) => motions[body].spin = spin,
@@ -109,7 +109,8 @@ pub(crate) fn motions(
     Ok(motions)
 }
 
-/// Which of what is prescribed is to blame: what joints alone do not leave, else what is missed most.
+/// The contradictory prescribed value: one that the joints alone prevent, otherwise the one with the largest
+/// deviation.
 fn contradiction(
     equations: &[Equation],
     rows: &[Vec<f64>],
@@ -141,7 +142,7 @@ fn contradiction(
     Contradiction { row: source, is_held: blamed.is_some(), nearest }
 }
 
-/// The equations of something prescribed, where it is of the island.
+/// The equations of a prescribed value, if it belongs to the island.
 fn equations(
     bodies: &[usize],
     closures: &[Closure],

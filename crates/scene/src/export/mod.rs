@@ -1,9 +1,9 @@
 //! Rust source of a const model and of a plant made of it, for firmware.
 //!
-//! `(scene, precisions, scheme, step) => source text`. Every number is written as its bit pattern,
-//! so the model that the compiler evaluates has the bits of the run-time-sized one; the compiler
-//! checks every index ([`dbd_kernel::Model::checked`]). What a program has of it: the head of
-//! [`source`]. A build script calls [`build`](mod@crate::build), a person `host-sim export`.
+//! `(scene, precisions, scheme, step) => source text`. Every number is written as its bit pattern, so the model that
+//! the compiler evaluates has the bits of the run-time-sized one; the compiler checks every index
+//! ([`dbd_kernel::Model::checked`]). [`source`] lists the generated items. Build scripts call
+//! [`build`](mod@crate::build), users `host-sim export`.
 
 mod laws;
 mod model;
@@ -33,21 +33,21 @@ use crate::runtime::SceneModel;
 use crate::scene::Scene;
 use crate::time::display;
 
-/// What every exported file begins with.
+/// The first words of every exported file.
 pub const HEAD: &str = "// Written by dbd-scene from the scene ";
 
-/// What is exported of a scene.
+/// Options of the export.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Export {
-    /// The precisions, in the order in which they are written.
+    /// The precisions in the order of the output.
     pub precisions: Vec<ExportPrecision>,
     /// The scheme of the plants.
     pub scheme: ExportScheme,
-    /// \[s\] their step.
+    /// \[s\] step of the plants.
     pub step: f64,
 }
 
-/// The whole source. For a scene `four-bar` in f32 it holds, each with its documentation:
+/// The whole source. For a scene `four-bar` in f32 it contains, with documentation:
 ///
 /// - `FourBarF32`, `FOUR_BAR_F32`: the model's type and the model, in flash;
 /// - `FourBarPlantF32`, `plant_f32()`: the plant's type, and a plant at the initial state; in one
@@ -85,7 +85,7 @@ pub fn source(scene: &Scene, export: &Export) -> String {
     text
 }
 
-/// What the vectors of a planar scene are.
+/// A comment on the vectors of a planar scene.
 fn in_plane(plane: &Plane) -> String {
     let axes = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
     let [x, y] = axes.map(|axis| plane.outward(axis).to_f64());
@@ -96,7 +96,7 @@ fn in_plane(plane: &Plane) -> String {
     )
 }
 
-/// What there is of a number's precision, in space or in its plane.
+/// The items of one precision, spatial or planar.
 fn parts_of<R: SourceNumber>(scene: &Scene, scheme: &ExportScheme) -> String {
     match &scene.planar {
         Some(planar) => parts::<Planar<R>>(scene, &planar.model, scheme),
@@ -104,7 +104,7 @@ fn parts_of<R: SourceNumber>(scene: &Scene, scheme: &ExportScheme) -> String {
     }
 }
 
-/// What there is of a precision.
+/// The items of one precision.
 fn parts<P: SourceGeometry>(
     scene: &Scene,
     exact: &SceneModel<F64>,
@@ -164,7 +164,7 @@ mod tests {
         }
     }
 
-    /// Nothing is called `plant` where there are two.
+    /// With two precisions nothing is named `plant`.
     #[test]
     fn each_precision_has_a_plant_of_its_own() {
         let scene = crate::example::with("");
@@ -173,7 +173,7 @@ mod tests {
         assert!(!text.contains("pub fn plant()") && !text.contains("TwoBodiesPlant ="));
     }
 
-    /// The step that was asked for comes before the scene's.
+    /// A given step takes precedence over that of the scene.
     #[test]
     fn the_step_asked_for_is_the_plants() {
         let text = "name = \"s\"\nduration = 1\nstep = 1e-3\n[[body]]\nname = \"b\"\nmass = 1\n\

@@ -32,7 +32,7 @@ pub fn model<R: SourceNumber>(scene: &Scene) -> String {
     }
 }
 
-/// Source of what steps, in a precision of its space.
+/// Source of the stepped model, in a spatial or planar precision.
 pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
     let model: SceneModel<P> = exact.convert();
     let precision = P::name();
@@ -105,7 +105,7 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
     out
 }
 
-/// Source of the model with the plan of a matrix: a type alias `FourBarPlannedF32` and a static
+/// Source of the model with the elimination order of a matrix: a type alias `FourBarPlannedF32` and a static
 /// `FOUR_BAR_PLANNED_F32`.
 pub(super) fn plan<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
     let Elimination { order, pairs, targets, homes } = exact.clone().planned().plan;
@@ -125,7 +125,7 @@ pub(super) fn plan<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) ->
     )
 }
 
-/// The force of each joint on its second body: of its last group, which acts on that.
+/// The force of each joint on its second body: of its last group, which acts on it.
 pub(super) fn joint_forces<P: SourceGeometry>(scene: &Scene) -> String {
     let names = constant_names(scene.joints.iter().map(|joint| joint.name.as_str()));
     let name = constant_name(&scene.name);

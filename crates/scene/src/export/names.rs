@@ -1,6 +1,6 @@
 //! Names of a scene and its parts as Rust identifiers and in comments.
 
-/// Stands before what a program need not use.
+/// Attribute of items that a program need not use.
 pub(super) const UNUSED: &str = "#[allow(dead_code)]\n";
 
 /// The scene's name as a Rust constant: `four-bar` becomes `FOUR_BAR`; a leading digit gets a `_`.
@@ -30,8 +30,7 @@ pub fn type_name(scene: &str) -> String {
     }
 }
 
-/// A name as code within a documentation comment, whatever quotes it holds: between more backticks
-/// than stand together in it.
+/// A name as code in a documentation comment: enclosed by more backticks than it contains in a row.
 pub(super) fn quoted(name: &str) -> String {
     if !name.contains('`') {
         return format!("`{name}`");
@@ -41,8 +40,7 @@ pub(super) fn quoted(name: &str) -> String {
     format!("{fence} {name} {fence}")
 }
 
-/// Names of things of a kind as parts of constants, each its own: a second one that would be the
-/// same gets its number.
+/// Names of items of a kind as parts of constants; duplicates get a number.
 #[must_use]
 pub fn constant_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
     let mut constants: Vec<String> = Vec::new();

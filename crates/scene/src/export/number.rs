@@ -1,6 +1,6 @@
 //! Numbers as their bit patterns, so that the compiler reads the bits that the assembly computed.
 //!
-//! `number, vector, moment, turn => expression`; a space's are of its own types.
+//! `number, vector, moment, rotation => expression`, in the types of the space.
 
 use dbd_kernel::fixed::{FixedPlace, FixedPoint, FixedTurn, FixedVelocity};
 use dbd_kernel::geometry::{Float, Named};
@@ -9,7 +9,7 @@ use dbd_kernel::plane::{Axial, Heading, Vec2};
 use dbd_kernel::space::Space;
 use dbd_kernel::{Fixed, Geometry, Quaternion, Real, Vec3};
 
-/// A number that can be written as source, and the precision made of it.
+/// A number that can be written as source, and its precision.
 pub trait SourceNumber: Real + Named {
     /// The precision's type in the kernel.
     const TYPE: &'static str;
@@ -33,7 +33,7 @@ impl SourceNumber for f32 {
 
 /// A precision in a space, whose constants can be written as source.
 pub(super) trait SourceGeometry: Geometry<Real: SourceNumber> {
-    /// What types are called by it; constants in capitals, functions in small letters.
+    /// Suffix of types; upper case for constants, lower case for functions.
     const SUFFIX: &'static str;
     /// Its type in the kernel.
     fn name() -> String;
@@ -47,7 +47,7 @@ pub(super) trait SourceGeometry: Geometry<Real: SourceNumber> {
     fn vector(v: &Self::Vector) -> String;
     /// A moment's expression.
     fn moment(m: &Self::Moment) -> String;
-    /// A turn's expression.
+    /// A rotation's expression.
     fn turn(turn: &<Self::Space as Space>::Turn) -> String;
     /// An orientation's expression.
     fn orientation(orientation: &Self::Orientation) -> String;

@@ -1,4 +1,4 @@
-//! Source of a plant's type and of the call that makes one.
+//! Source of a plant's type and constructor.
 //!
 //! `(scene, scheme, precision) => type aliases, constructors`.
 
@@ -19,7 +19,7 @@ pub(super) fn scheme(scene: &Scene, scheme: &ExportScheme) -> String {
     )
 }
 
-/// The type of a precision's plant, and the call that makes one. It is generated where it is used.
+/// The plant type of a precision and its constructor.
 pub(super) fn plant<P: SourceGeometry>(scene: &Scene, scheme: &ExportScheme) -> String {
     let (ty, constant) = (type_name(&scene.name), constant_name(&scene.name));
     let (precision, capitals, path) = (P::SUFFIX, P::SUFFIX.to_uppercase(), &scheme.path);

@@ -1,4 +1,4 @@
-//! Source of what all precisions share.
+//! Source of the items that all precisions share.
 //!
 //! `scene => use lines, step, names, indices`.
 
@@ -9,9 +9,8 @@ use crate::assembly::WORLD;
 use crate::scene::Scene;
 use dbd_kernel::BodyIndex;
 
-/// Source of what all precisions share: `use` lines, the step \[s\], the bodies' names, and the
-/// index of each input: `FOUR_BAR_INPUT_ELBOW`. `step` is the default step where the scene gives
-/// none.
+/// Source of the items that all precisions share: `use` lines, the step \[s\], the bodies' names, and the index of
+/// each input: `FOUR_BAR_INPUT_ELBOW`. `step` is the default step for a scene without one.
 #[must_use]
 pub fn preamble(scene: &Scene, step: f64) -> String {
     shared(scene, scene.step.unwrap_or(step))
@@ -56,17 +55,16 @@ pub(super) fn shared(scene: &Scene, step: f64) -> String {
     )
 }
 
-/// The types of a model in space.
+/// The types of a spatial model.
 const SPATIAL: &str = "Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, \
                        PointOnLine,\n    Quaternion, Revolute, TorsionSpring, Tsda, Universal, Vec3,\n    ";
 
-/// The types of one in its plane.
+/// The types of a planar model.
 const PLANAR: &str = "Body, BodyIndex, BodyState, Load, LoadFrame, Model, Planar32, Planar64, \
                       PointBushing,\n    PointOnLine, TorsionSpring, Tsda,\n    plane::{Axial, \
                       Heading, Vec2},\n    ";
 
-/// Names of joints, inputs and torsion springs by index, and what each body and joint is in the
-/// model.
+/// Names of joints, inputs and torsion springs by index, and the indices of each body and joint in the model.
 pub(super) fn names(scene: &Scene) -> String {
     let name = constant_name(&scene.name);
     let mut text = names_list(scene, "JOINTS", "joints", scene.joints.iter().map(|one| &one.name));

@@ -1,4 +1,4 @@
-//! Precisions that const models are written in.
+//! Precisions of const models.
 
 use dbd_kernel::{F32, F64, Fixed, Geometry as _};
 
@@ -29,7 +29,7 @@ impl ExportPrecision {
         }
     }
 
-    /// What types are called by it: `FourBarF32`.
+    /// Suffix of types: `FourBarF32`.
     #[must_use]
     pub fn suffix(self) -> &'static str {
         match self {
@@ -39,7 +39,7 @@ impl ExportPrecision {
         }
     }
 
-    /// Whether a planar scene has it.
+    /// Whether planar scenes support it.
     #[must_use]
     pub fn has_planes(self) -> bool {
         matches!(self, Self::F64 | Self::F32)

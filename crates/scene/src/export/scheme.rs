@@ -15,7 +15,7 @@ use super::precision::ExportPrecision;
 use crate::default_step::Bears;
 use crate::nearest::nearest;
 
-/// Newton iterations that may be asked for: more change nothing but the stable step.
+/// Maximum number of Newton iterations: more only change the stable step.
 pub const MOST_ITERATIONS: u32 = 8;
 
 /// All names, for messages.
@@ -38,9 +38,9 @@ pub struct ExportScheme {
     name: &'static str,
     damping: Damping,
     stability_limit: f64,
-    /// What its matrix bears, see [`Self::longest`].
+    /// Limit of its matrix, see [`Self::longest`].
     most_vibration: Option<Constant>,
-    /// Whether its plants take a model with a plan.
+    /// Whether its plants need a model with an elimination order.
     pub(super) has_matrix: bool,
     /// The type's path.
     pub(super) path: String,
@@ -48,7 +48,7 @@ pub struct ExportScheme {
     pub(super) value: String,
 }
 
-/// Why there is no such scheme.
+/// An invalid scheme or parameter.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct SchemeError {
@@ -57,7 +57,7 @@ pub struct SchemeError {
 }
 
 impl SchemeError {
-    /// What would be right.
+    /// The remedy.
     #[must_use]
     pub fn help(&self) -> &str {
         &self.help
@@ -65,11 +65,10 @@ impl SchemeError {
 }
 
 impl ExportScheme {
-    /// A scheme by its name, with Newton iterations for those that have them, and with another
-    /// damping than its own, `sweeps`, `joint-wise` or `explicit`, for those that have them.
+    /// A scheme by its name, optionally with Newton iterations and a damping, `sweeps`, `joint-wise` or `explicit`,
+    /// for schemes that support them.
     ///
-    /// # Errors
-    /// Where there is no such scheme, or it has no such parameter.
+    /// # Errors If the scheme is unknown or does not have the parameter.
     pub fn named(
         name: &str,
         newton: Option<u32>,
@@ -80,13 +79,14 @@ impl ExportScheme {
         let way = damping.and_then(|word| ways.into_iter().find(|way| way.name() == word));
         if let (Some(word), None) = (damping, way) {
             let names = ways.map(Damping::name);
-            let help = format!("{} or {}", names[..3].join(", "), names[3]);
-            return refuse(format!("there is no damping \"{word}\""), help);
+            let help = format!("expected {} or {}", names[..3].join(", "), names[3]);
+            return refuse(format!("unknown damping \"{word}\""), help);
         }
         let iterations = newton.unwrap_or(0);
         if iterations > MOST_ITERATIONS {
-            let message = format!("{iterations} Newton iterations are more than {MOST_ITERATIONS}");
-            return refuse(message, format!("at most {MOST_ITERATIONS}; more of them buy nothing"));
+            let message =
+                format!("{iterations} Newton iterations exceed the maximum of {MOST_ITERATIONS}");
+            return refuse(message, format!("use at most {MOST_ITERATIONS}; more have no benefit"));
         }
         let wrapper = match way {
             Some(Damping::Explicit) => Some("Explicit"),
@@ -114,37 +114,42 @@ impl ExportScheme {
             _ => {
                 let meant = nearest(name, NAMES);
                 let meant = meant.map(|name| format!("did you mean {name}? ")).unwrap_or_default();
-                let help = format!("{meant}the schemes: {}", NAMES.join(", "));
-                return refuse(format!("there is no scheme \"{name}\""), help);
+                let help = format!("{meant}known schemes: {}", NAMES.join(", "));
+                return refuse(format!("unknown scheme \"{name}\""), help);
             }
         };
         if newton.is_some() && !scheme.path.contains("Dbd") {
             let message = format!("the scheme {name} has no Newton iterations");
-            return refuse(message, format!("dbd, dbd-p1 and dbd-p2 have; none for {name}"));
+            return refuse(
+                message,
+                format!("only dbd, dbd-p1 and dbd-p2 have them; remove the option for {name}"),
+            );
         }
         match damping {
             Some(word) if word != scheme.damping.name() => refuse(
                 format!("the scheme {name} has no {word} damping, only {}", scheme.damping.name()),
                 format!(
-                    "leapfrog and semi-implicit-euler have sweeps, joint-wise and explicit; none for {name}"
+                    "leapfrog and semi-implicit-euler accept sweeps, joint-wise and explicit; remove it for {name}"
                 ),
             ),
             _ => Ok(scheme),
         }
     }
 
-    /// The same scheme with another ρ∞, for the one that has it.
+    /// The same scheme with another ρ∞, for generalized-alpha.
     ///
-    /// # Errors
-    /// Where it has none, or not such a one.
+    /// # Errors If the scheme has no ρ∞ or the value is out of range.
     pub fn with_rho(self, rho: f64) -> Result<Self, SchemeError> {
         let refuse = |message: String, help: &str| Err(SchemeError { message, help: help.into() });
         if self.name != GeneralizedAlpha::NAME {
-            return refuse(format!("the scheme {} has no rho", self.name), "generalized-alpha has");
+            return refuse(
+                format!("the scheme {} has no rho", self.name),
+                "only generalized-alpha has it",
+            );
         }
         match GeneralizedAlpha::new(rho) {
             Ok(scheme) => Ok(Self::solved(scheme)),
-            Err(error) => refuse(error.to_string(), "0.5 where nothing is said"),
+            Err(error) => refuse(error.to_string(), "the default is 0.5"),
         }
     }
 
@@ -195,8 +200,8 @@ impl ExportScheme {
         self.name
     }
 
-    /// \[s\] the longest step that its matrix bears in a precision where `highest` \[rad/s\] is the bound of the
-    /// highest frequency; infinite without a matrix.
+    /// \[s\] the longest step that its matrix allows in a precision; `highest` \[rad/s\] is the bound of the highest
+    /// frequency; infinite without a matrix.
     #[must_use]
     pub fn longest(&self, precision: ExportPrecision, highest: f64) -> f64 {
         self.most_vibration(precision).map_or(f64::INFINITY, |most| most / highest)
@@ -207,7 +212,7 @@ impl ExportScheme {
         Some(if precision == ExportPrecision::F64 { double } else { f64::from(single) })
     }
 
-    /// What it bears in a precision.
+    /// Its limits in a precision.
     pub(crate) fn bears(&self, precision: ExportPrecision) -> Bears {
         Bears { stability: self.stability_limit, vibration: self.most_vibration(precision) }
     }
@@ -266,7 +271,7 @@ mod tests {
         assert_eq!(ExportScheme::default(), ExportScheme::named("leapfrog", None, None).unwrap());
     }
 
-    /// The value of a scheme with another ρ∞, or why there is none.
+    /// The value of a scheme with another ρ∞, or the error.
     fn value_of(scheme: Result<ExportScheme, SchemeError>, rho: f64) -> Result<String, String> {
         let scheme = scheme.and_then(|scheme| scheme.with_rho(rho));
         scheme.map(|scheme| scheme.value).map_err(|error| error.to_string())

@@ -1,4 +1,4 @@
-//! How strong the dampers of each element are beside the masses they act on.
+//! Strength of the dampers of each element relative to the masses they act on.
 
 use dbd_kernel::damping::{DampersOf, Strength, strengths, strengths_of_joints};
 use dbd_kernel::{Geometry, Planar64, State};
@@ -6,22 +6,22 @@ use dbd_kernel::{Geometry, Planar64, State};
 use crate::runtime::SceneModel;
 use crate::scene::Scene;
 
-/// How strong the dampers of a joint, of a raw element or of a torsion spring are at t = 0.
+/// Strength of the dampers of a joint, a raw element or a torsion spring at t = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ElementDamping {
-    /// What messages call it: ``joint `wrist` ``.
+    /// Its label in messages: ``joint `wrist` ``.
     pub name: String,
-    /// Its row in the order joints, raw elements, torsion springs, interactions.
+    /// Its index in the order joints, raw elements, torsion springs, interactions.
     pub row: usize,
-    /// \[1/s\] c/μ of its strongest damper, at which this alone would stop its bodies.
+    /// \[1/s\] c/μ of its strongest damper, the rate at which this damper alone stops its bodies.
     pub rate: f64,
-    /// \[1/s\] the same of all dampers along the motion of one that others cross, at angles that are neither
-    /// none nor right; 0 without one: [`Strength::crossed`].
+    /// \[1/s\] the same for all dampers along the motion of one that others cross obliquely; 0 without one:
+    /// [`Strength::crossed`].
     pub crossed: f64,
 }
 
-/// Joints, raw elements, torsion springs and interactions that have dampers, in scene order, as they step: in its
-/// plane where the scene is planar; `joint_wise` as joint-wise damping has them.
+/// Joints, raw elements, torsion springs and interactions with dampers in scene order, as stepped: in the plane of a
+/// planar scene; `joint_wise` for joint-wise damping.
 pub(super) fn dampings(scene: &Scene, joint_wise: bool) -> Vec<ElementDamping> {
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
     let springs = scene.joints.len() + scene.raw_names.len();

@@ -1,6 +1,6 @@
-//! Which bodies hang together.
+//! Connected bodies.
 //!
-//! `scene => islands`, sets of bodies joined by elements or interactions; the world joins nothing by itself.
+//! `scene => islands`, sets of bodies joined by elements or interactions; the world does not connect bodies.
 
 use crate::parts::Parts;
 use crate::scene::Scene;
@@ -8,7 +8,7 @@ use crate::scene::Scene;
 /// Bodies joined by elements or interactions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Island {
-    /// Rows of its bodies, ascending.
+    /// Indices of its bodies, ascending.
     pub bodies: Vec<usize>,
     /// Whether an element or an interaction joins it to the world.
     pub grounded: bool,

@@ -1,7 +1,7 @@
-//! The lengths of elements at the initial pose and how fast they change.
+//! Lengths of elements at the initial pose and their rates.
 //!
-//! `scene => per group its free length, its shortest and longest element, the largest rate`.
-//! Points and velocities are placed as the kernel places them.
+//! `scene => per group its free length, its shortest and longest element, the largest rate`. Points and velocities
+//! are computed as in the kernel.
 
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{BodyIndex, F64, Geometry, Vec3};
@@ -9,7 +9,7 @@ use dbd_kernel::{BodyIndex, F64, Geometry, Vec3};
 use crate::facts::pose::frames;
 use crate::scene::Scene;
 
-/// What is known of the elements of a group, or of several.
+/// Lengths of the elements of one or several groups.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct GroupFacts {
     /// \[m\] free length, the largest where groups differ.
@@ -23,11 +23,11 @@ pub(crate) struct GroupFacts {
 }
 
 impl GroupFacts {
-    /// Of no element.
+    /// Lengths of no element.
     pub(super) const NONE: Self =
         Self { free_length: 0.0, shortest: f64::INFINITY, longest: 0.0, stretching_rate: 0.0 };
 
-    /// These and others.
+    /// The union of two.
     pub(super) fn with(&self, other: &Self) -> Self {
         Self {
             free_length: self.free_length.max(other.free_length),
@@ -38,7 +38,7 @@ impl GroupFacts {
     }
 }
 
-/// What is known of each group.
+/// Lengths of each group.
 pub(super) fn groups(scene: &Scene) -> Vec<GroupFacts> {
     let frames = frames(scene);
     scene.model.groups.iter().map(|group| facts_of(scene, &frames, group)).collect()
@@ -51,8 +51,8 @@ pub(super) fn points(scene: &Scene, group: &Group, i: usize) -> [Vec3<f64>; 2] {
     [points[i / arms], points[stars + if group.shared { i % arms } else { i }]]
 }
 
-/// What of the displacement between the points of element `i` it acts along, world axes: of a point
-/// on a line what is normal to the line. `a` is the group's first end.
+/// The part of the displacement between the points of element `i` along which it acts, world axes: for a point on a
+/// line the part normal to the line. `a` is the group's first end.
 pub(super) fn along(
     scene: &Scene,
     group: &Group,
@@ -68,13 +68,13 @@ pub(super) fn along(
     displacement - n * displacement.dot(n)
 }
 
-/// Whether the elements of a group hold every direction, at no length.
+/// Whether the elements of a group have zero length and act in every direction.
 pub(super) fn is_bushing(group: &Group) -> bool {
     matches!(group.law, Law::PointBushing | Law::Revolute | Law::Universal)
 }
 
-/// \[m\] Against which turns of its second body a joint of bushings holds its axes, world, as long as its
-/// lever.
+/// \[m\] Axes of the rotations of its second body that a joint of bushings resists, world, with the lever arm as
+/// length.
 pub(super) fn held_turns(scene: &Scene, group: &Group, a: &End<'_>, b: &End<'_>) -> Vec<Vec3<f64>> {
     let row = usize::from(group.element);
     match group.law {
@@ -118,7 +118,7 @@ fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -
             }
         };
         let length = libm::sqrt(d.dot(d));
-        // Without a free length, or at no length, every direction counts.
+        // At zero free length or zero length every direction counts.
         let rate = if free_length > 0.0 && length > 0.0 {
             (d.dot(rate) / length).abs()
         } else {
@@ -153,7 +153,7 @@ impl End<'_> {
         }
     }
 
-    /// A point of the world in the end's axes from its centre of mass.
+    /// A world point relative to the centre of mass of this end.
     pub(super) fn to_local(&self, point_w: Vec3<f64>) -> Vec3<f64> {
         match self.scene.model.initial.get(self.body.row()) {
             Some(state) => self.to_body(point_w - state.position),

@@ -1,8 +1,8 @@
-//! What the joints leave free at the initial pose.
+//! Freedoms that the joints leave at the initial pose.
 //!
-//! `scene => freedoms, bodies that cannot move`. Each joint counts as what its type holds, whatever it is made of:
-//! raw elements are springs and hold nothing. Constraints that loops imply count once, and at singular
-//! poses more than the first order counts (`closure::mobility`).
+//! `scene => freedoms, bodies that cannot move`. Each joint counts as the constraints of its type, independent of its
+//! realisation; raw elements are springs and constrain nothing. Redundant constraints of loops count once, and
+//! singular poses are examined beyond first order (`closure::mobility`).
 
 use std::collections::BTreeMap;
 
@@ -19,23 +19,23 @@ use crate::orientation::of_axes;
 use crate::parts::Parts;
 use crate::scene::Scene;
 
-/// More bodies that hang together are not examined: the time grows with the third power.
+/// Larger sets of connected bodies are not examined: the time grows with the third power.
 pub(super) const MOST_BODIES: usize = 60;
 
-/// A joint that is ten times softer than the stiffest is a mount: it is there to deflect, as the
-/// rubber of a suspension whose arms would not move without, and locks nothing.
+/// A joint that is ten times softer than the stiffest is a mount: it is meant to deflect, like the rubber bushing of
+/// a suspension arm, and locks nothing.
 const MOUNT: f64 = 0.1;
 
-/// What the joints hold.
+/// Constraints of the joints.
 pub(super) struct Held {
     pub(super) mobility: Mobility,
-    /// Rows of bodies that cannot move.
+    /// Indices of bodies that cannot move.
     pub(super) locked: Vec<usize>,
-    /// Rows of joints between two bodies that each let these move, and together do not.
+    /// Indices of joints between two bodies that each let these move, but together do not.
     pub(super) jammed: Vec<Vec<usize>>,
 }
 
-/// What the joints hold; `None` where too many bodies hang together.
+/// Constraints of the joints; `None` if too many bodies are connected.
 pub(super) fn held(scene: &Scene) -> Option<Held> {
     let mut holds = holds(scene);
     let initial = scene.model.initial.iter();
@@ -57,11 +57,10 @@ pub(super) fn held(scene: &Scene) -> Option<Held> {
     Some(Held { mobility, locked, jammed })
 }
 
-/// Types of joints that are there to let two bodies move in one or two ways. Several others between two bodies may well
-/// be a mount.
+/// Types of joints with one or two freedoms. Several others between two bodies may be a mount.
 const MOVING: [&str; 3] = ["revolute", "cylindrical", "translational"];
 
-/// Joints between two bodies that each let these move, and together do not.
+/// Joints between two bodies that each let these move, but together do not.
 fn jammed(scene: &Scene, holds: &[Hold], poses: &[Pose], scale: f64) -> Vec<Vec<usize>> {
     let mut between: BTreeMap<[usize; 2], Vec<&Hold>> = BTreeMap::new();
     for hold in holds.iter().filter(|hold| MOVING.contains(&scene.joints[hold.joint].kind)) {
@@ -74,27 +73,27 @@ fn jammed(scene: &Scene, holds: &[Hold], poses: &[Pose], scale: f64) -> Vec<Vec<
     between.into_values().map(|own| own.iter().map(|hold| hold.joint).collect()).collect()
 }
 
-/// Rows of the bodies of a joint, the lower first, the world after all.
+/// Indices of the bodies of a joint, the lower first; the world counts as last.
 fn pair(closure: &Closure, bodies: usize) -> [usize; 2] {
     let [a, b] = closure.ends.map(|body: BodyIndex| body.row().min(bodies));
     [a.min(b), a.max(b)]
 }
 
-/// Whether joints between a body and another leave no motion of first order.
+/// Whether joints between two bodies leave no motion of first order.
 fn is_rigid(closures: &[Closure], body: usize, poses: &[Pose], scale: f64) -> bool {
     let mut movable = vec![false; poses.len()];
     movable[body] = true;
     closure::still(closures, poses, &movable, scale) == [body]
 }
 
-/// Bodies that cannot move, though no joints with one other body hold them rigidly to what stands still.
+/// Bodies that cannot move although no joints to a single other body fix them to one that is at rest.
 fn locked(closures: &[Closure], poses: &[Pose], mut movable: Vec<bool>, scale: f64) -> Vec<usize> {
     let bodies = poses.len();
     let mut joined = Parts::apart(bodies + 1);
     for [a, b] in closures.iter().map(|closure| pair(closure, bodies)) {
         joined.join(a, b);
     }
-    // What nothing joins to the world is seen from the first of its bodies.
+    // The motion of bodies without a connection to the world is relative to the first of them.
     let mut seen_from: Vec<usize> = (0..=bodies).map(|body| joined.first(body)).collect();
     let grounded = seen_from[bodies];
     for from in &mut seen_from {
@@ -116,7 +115,7 @@ fn locked(closures: &[Closure], poses: &[Pose], mut movable: Vec<bool>, scale: f
     still
 }
 
-/// Bodies that the joints between two of them hold rigidly together, the world after all bodies.
+/// Bodies that joints between them connect rigidly; the world counts as last.
 fn rigid(closures: &[Closure], poses: &[Pose], scale: f64) -> Parts {
     let mut between: BTreeMap<[usize; 2], Vec<Closure>> = BTreeMap::new();
     for closure in closures {
@@ -131,12 +130,12 @@ fn rigid(closures: &[Closure], poses: &[Pose], scale: f64) -> Parts {
     rigid
 }
 
-/// A joint, or of a universal joint of TSDAs one of its two revolutes.
+/// A joint, or one of the two revolute joints of a universal joint of TSDAs.
 struct Hold {
-    /// Its row.
+    /// Its index.
     joint: usize,
     closure: Closure,
-    /// \[N/m\] of its elements.
+    /// \[N/m\] stiffness of its elements.
     stiffness: f64,
 }
 
@@ -154,7 +153,7 @@ fn holds(scene: &Scene) -> Vec<Hold> {
     holds
 }
 
-/// What the joint holds of which a group is an element, at the initial pose.
+/// Constraints at the initial pose of the joint to which a group belongs.
 fn closure(
     scene: &Scene,
     frames: &[<F64 as Geometry>::Frame],
@@ -189,8 +188,8 @@ fn closure(
     }
 }
 
-/// A right-handed triad about an axis. Its reference is one of two axes and changes where neither is near: a
-/// choice among equals would be rounding's.
+/// A right-handed triad about an axis. Its reference is one of two axes and switches far from both, so that rounding
+/// does not decide.
 fn triad(axis: Vec3<f64>) -> [Vec3<f64>; 3] {
     let reference =
         if axis.x.abs() > 0.59 { Vec3::new(0.0, 1.0, 0.0) } else { Vec3::new(1.0, 0.0, 0.0) };

@@ -1,7 +1,7 @@
-//! What is known of a scene without running it.
+//! Facts about a scene without running it.
 //!
-//! `scene => counts of freedoms and equations, per joint its lengths and how its velocities pull
-//! at it, islands`. Facts only; what is probably not meant is said by [`warnings`](crate::warnings).
+//! `scene => counts of freedoms and equations, per joint its lengths and their rates, islands`.
+//! [`warnings`](crate::warnings) reports probable mistakes.
 
 mod damping;
 mod islands;
@@ -20,35 +20,35 @@ pub use stiffness::{
     ElementFrequency, JointElement, element_frequencies, joint_elements, with_stiffer_joints,
 };
 
-/// What is known of a scene without running it.
+/// Facts about a scene without running it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
     /// Equations of motion: 6 per body.
     pub equations: usize,
-    /// Equations that a solver with constraints has: 6 per body and one per independent constraint
-    /// (Franco & Degani 2026, Table 7a); where [`Self::freedoms`] is `None`, one per constraint.
+    /// Equations of a solver with constraints: 6 per body and one per independent constraint (Franco & Degani 2026,
+    /// Table 7a); where [`Self::freedoms`] is `None`, one per constraint.
     pub constraint_equations: usize,
-    /// What the joints leave free at the initial pose and near it: constraints that loops imply count once, and
-    /// motions that exist to first order only, as at a singular pose, do not count. `None` where more bodies hang
-    /// together than that takes a moment for.
+    /// Degrees of freedom at and near the initial pose: redundant constraints of loops count once, and motions that
+    /// exist to first order only, as at a singular pose, do not count. `None` if too many bodies are connected for a
+    /// quick answer.
     pub freedoms: Option<usize>,
-    /// 6 per body less the rank of the joints' constraints at the initial pose; more than
-    /// [`Self::freedoms`] where that pose is singular.
+    /// 6 per body less the rank of the joints' constraints at the initial pose; more than [`Self::freedoms`] at a
+    /// singular pose.
     pub first_order_freedoms: Option<usize>,
-    /// Rows of the bodies that cannot move, though no joint holds them rigidly to what stands still:
-    /// stiff joints to several others do.
+    /// Indices of bodies that cannot move although no joint fixes them to a body at rest: joints to several others
+    /// do.
     pub locked: Vec<usize>,
-    /// Rows of joints between two bodies that each leave a turn or a slide and together leave none.
+    /// Indices of joints between two bodies that each leave a rotation or a translation, but together leave none.
     pub jammed: Vec<Vec<usize>>,
     /// The joints in scene order.
     pub joints: Vec<JointFacts>,
-    /// Bodies that hang together, in the order of their first bodies.
+    /// Sets of connected bodies, in the order of their first bodies.
     pub islands: Vec<Island>,
-    /// Joints, raw elements and torsion springs, how fast each alone would vibrate.
+    /// Natural frequency of each joint, raw element and torsion spring alone.
     pub frequencies: Vec<ElementFrequency>,
 }
 
-/// What is known of a joint without running it.
+/// Facts about a joint without running it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointFacts {
     /// \[m\] free length of its elements.
@@ -58,18 +58,18 @@ pub struct JointFacts {
     pub initial_length: [f64; 2],
     /// \[m\] the largest |L − L0| at the initial pose.
     pub assembly_error: f64,
-    /// \[m/s\] the largest rate of a length at t = 0: what the bodies' velocities do to it.
+    /// \[m/s\] the largest rate of a length at t = 0, from the velocities of the bodies.
     pub stretching_rate: f64,
 }
 
 impl Facts {
-    /// The element that alone would vibrate fastest; `None` where there are none.
+    /// The element with the highest natural frequency; `None` without elements.
     #[must_use]
     pub fn fastest(&self) -> Option<&ElementFrequency> {
         self.frequencies.iter().max_by(|a, b| a.frequency.total_cmp(&b.frequency))
     }
 
-    /// \[rad/s\] the median of the joints' frequencies, of all elements where there are no joints.
+    /// \[rad/s\] the median of the joints' frequencies, without joints that of all elements.
     #[must_use]
     pub fn median_frequency(&self) -> Option<f64> {
         let count = if self.joints.is_empty() { self.frequencies.len() } else { self.joints.len() };
@@ -80,15 +80,13 @@ impl Facts {
     }
 }
 
-/// Joints, raw elements and torsion springs that have dampers, in scene order: how strong these
-/// are at the initial pose.
+/// Strength of the dampers of joints, raw elements and torsion springs at the initial pose, in scene order.
 #[must_use]
 pub fn element_dampings(scene: &Scene) -> Vec<ElementDamping> {
     damping::dampings(scene, false)
 }
 
-/// [`element_dampings`] as joint-wise damping has them: the dampers of a joint do not cross one
-/// another.
+/// [`element_dampings`] for joint-wise damping: the dampers of a joint do not cross one another.
 #[must_use]
 pub fn joint_dampings(scene: &Scene) -> Vec<ElementDamping> {
     damping::dampings(scene, true)
@@ -125,7 +123,7 @@ pub fn facts(scene: &Scene) -> Facts {
     }
 }
 
-/// What is known of each group's elements.
+/// Lengths of the elements of each group.
 pub(crate) fn groups(scene: &Scene) -> Vec<GroupFacts> {
     lengths::groups(scene)
 }

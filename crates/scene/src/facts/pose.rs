@@ -14,8 +14,8 @@ pub(crate) fn frames(scene: &Scene) -> Vec<<F64 as Geometry>::Frame> {
     states.map(|state| F64::frame(&state.position, &state.orientation)).collect()
 }
 
-/// The axis of a joint at the initial pose, world: the line through a revolute's axis points, the
-/// direction of a guide's lines. `group` is one of a joint's; other joints have no axis.
+/// The axis of a joint at the initial pose, world: the line through a revolute's axis points, the direction of a
+/// guide's lines. `group` belongs to the joint; other joints have no axis.
 pub(crate) fn axis_w(scene: &Scene, group: usize) -> Option<Vec3<f64>> {
     let model = &scene.model;
     let group = model.groups.get(group)?;

@@ -1,8 +1,8 @@
-//! How fast each element alone would let its two bodies vibrate, and which is the fastest.
+//! Natural frequency of each element alone with its two bodies, and the highest one.
 //!
-//! `scene => per element a frequency`. `ω² = k·(1/m_a + 1/m_b)` along the element, m the mass that a
-//! body shows at the point: `1/m = n·n/m + (r × n)·I⁻¹·(r × n)`; about an axis likewise. The fastest
-//! of an element's directions counts. A figure to compare elements by, no bound of anything.
+//! `scene => per element a frequency`. `ω² = k·(1/m_a + 1/m_b)` along the element, m the effective mass of a body at
+//! the point: `1/m = n·n/m + (r × n)·I⁻¹·(r × n)`; about an axis likewise. The highest value over the directions of
+//! an element counts. It compares elements and is not a bound.
 
 use dbd_kernel::Vec3;
 use dbd_kernel::model::{Group, Law};
@@ -11,27 +11,27 @@ use crate::facts::lengths::{End, along, held_turns, is_bushing, points};
 use crate::facts::pose::frames;
 use crate::scene::Scene;
 
-/// How fast a joint, a raw element or a torsion spring alone would let its bodies vibrate.
+/// Natural frequency of a joint, a raw element or a torsion spring alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ElementFrequency {
-    /// What messages call it: ``joint `wrist` ``.
+    /// Its label in messages: ``joint `wrist` ``.
     pub name: String,
-    /// Its row in the order joints, raw elements, torsion springs.
+    /// Its index in the order joints, raw elements, torsion springs.
     pub row: usize,
     /// \[rad/s\].
     pub frequency: f64,
 }
 
-/// An element of a joint as it lies at the initial pose; of a bushing one of its directions.
+/// An element of a joint at the initial pose, or one direction of a bushing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointElement {
-    /// The row of its joint.
+    /// The index of its joint.
     pub joint: usize,
-    /// Rows of its two bodies, `None` for the world.
+    /// Indices of its two bodies, `None` for the world.
     pub bodies: [Option<usize>; 2],
-    /// \[m\] its moment about the centre of mass of either body, body axes, per newton.
+    /// \[m\] its moment per newton about the centre of mass of each body, body axes.
     pub moments: [Vec3<f64>; 2],
-    /// \[1\] the direction along which it pulls, unit length, world; 0 where it only turns.
+    /// \[1\] the unit direction of its force, world; 0 for a pure moment.
     pub direction_w: Vec3<f64>,
     /// \[N/m\].
     pub stiffness: f64,
@@ -39,7 +39,7 @@ pub struct JointElement {
     pub free_length: f64,
 }
 
-/// The elements of all joints in order, as they lie at the initial pose.
+/// The elements of all joints in order, at the initial pose.
 #[must_use]
 pub fn joint_elements(scene: &Scene) -> Vec<JointElement> {
     let frames = frames(scene);
@@ -66,7 +66,7 @@ pub fn joint_elements(scene: &Scene) -> Vec<JointElement> {
                     free_length,
                 });
             };
-            // On a line the force is at its foot.
+            // The force on a line acts at the foot of the perpendicular.
             let foot = if group.law == Law::PointOnLine { a.to_local(tip_w - d) } else { centre };
             let at = |n: Vec3<f64>| [foot.cross(a.to_body(n)), tip.cross(b.to_body(n))];
             if is_bushing(group) {
@@ -84,8 +84,7 @@ pub fn joint_elements(scene: &Scene) -> Vec<JointElement> {
     elements
 }
 
-/// The directions of element `i` of a group of bushings, world, with the parts of its stiffness that it has
-/// there.
+/// The directions of element `i` of a group of bushings, world, with the fraction of its stiffness in each.
 fn directions(scene: &Scene, group: &Group, i: usize, a: &End<'_>) -> [(f64, Vec3<f64>); 3] {
     let row = usize::from(group.element) + i;
     match scene.model.revolutes.get(row).filter(|_| group.law == Law::Revolute) {
@@ -117,7 +116,7 @@ pub(super) fn law(scene: &Scene, group: &Group, i: usize) -> (f64, f64) {
     }
 }
 
-/// The scene in space with all joints `factor` times as stiff; dampers, and springs that are no joints, stay.
+/// The spatial scene with the stiffness of all joints times `factor`; dampers and other springs are unchanged.
 #[must_use]
 pub fn with_stiffer_joints(scene: &Scene, factor: f64) -> Scene {
     let mut made = Scene { planar: None, ..scene.clone() };
@@ -137,7 +136,7 @@ pub fn with_stiffer_joints(scene: &Scene, factor: f64) -> Scene {
     made
 }
 
-/// Joints, raw elements and torsion springs in scene order: how fast each alone would vibrate.
+/// Natural frequency of each joint, raw element and torsion spring alone, in scene order.
 #[must_use]
 pub fn element_frequencies(scene: &Scene) -> Vec<ElementFrequency> {
     let frames = frames(scene);
@@ -177,10 +176,10 @@ fn of_element(scene: &Scene, group: &Group, i: usize, a: &End<'_>, b: &End<'_>) 
     let d = along(scene, group, i, a, tip - centre);
     let directions = match crate::direction::unit(d) {
         Some(n) if !is_bushing(group) => vec![(1.0, n)],
-        // No length: every direction counts.
+        // At zero length every direction counts.
         _ => directions(scene, group, i, a).to_vec(),
     };
-    // On a line the force is at its foot.
+    // The force on a line acts at the foot of the perpendicular.
     let foot = if group.law == Law::PointOnLine { tip - d } else { centre };
     let square = |(weight, n): &(f64, Vec3<f64>)| {
         weight * stiffness * (moving(a, foot, *n) + moving(b, tip, *n))
@@ -190,7 +189,7 @@ fn of_element(scene: &Scene, group: &Group, i: usize, a: &End<'_>, b: &End<'_>) 
     directions.iter().map(square).chain(turns).fold(0.0, f64::max)
 }
 
-/// \[1/kg\] how easily a point of a body moves along a direction, world; 0 of the world.
+/// \[1/kg\] inverse effective mass of a body at a point along a direction, world; 0 for the world.
 fn moving(end: &End<'_>, at: Vec3<f64>, n: Vec3<f64>) -> f64 {
     let row = end.body.row();
     let (Some(body), Some(state)) =
@@ -201,7 +200,7 @@ fn moving(end: &End<'_>, at: Vec3<f64>, n: Vec3<f64>) -> f64 {
     1.0 / body.mass + turning(end, (at - state.position).cross(n))
 }
 
-/// \[1/(kg·m²)\] how easily a body turns about an axis, world: `a·I⁻¹·a`; 0 of the world.
+/// \[1/(kg·m²)\] inverse effective inertia of a body about an axis, world: `a·I⁻¹·a`; 0 for the world.
 fn turning(end: &End<'_>, axis: Vec3<f64>) -> f64 {
     let Some(body) = end.scene.model.bodies.get(end.body.row()) else { return 0.0 };
     let Vec3 { x, y, z } = end.to_body(axis);

@@ -1,11 +1,11 @@
-//! `colour`: a few words, or `#rrggbb` as CSS has it.
+//! `colour`: one of a few names, or `#rrggbb` as in CSS.
 
 use crate::error::SceneError;
 use crate::nearest::nearest;
 use crate::shortened::shortened;
 use crate::text::{Kind, Value};
 
-/// Words and what they stand for: colours that are told apart on light and on dark paper.
+/// Names and colours, distinguishable on light and dark backgrounds.
 const WORDS: [(&str, &str); 12] = [
     ("black", "#1f242b"),
     ("white", "#f2f4f7"),
@@ -21,12 +21,12 @@ const WORDS: [(&str, &str); 12] = [
     ("pink", "#d9709f"),
 ];
 
-/// The words, in their order.
+/// The names in order.
 pub(crate) fn words() -> [&'static str; WORDS.len()] {
     WORDS.map(|(word, _)| word)
 }
 
-/// A colour as `#rrggbb` in small letters.
+/// A colour as `#rrggbb` in lower case.
 #[derive(Clone, Copy)]
 pub(super) struct Colour;
 
@@ -51,7 +51,7 @@ impl Kind for Colour {
     }
 }
 
-/// `#rrggbb` of that or of `#rgb`.
+/// `#rrggbb` from that or from `#rgb`.
 fn hexadecimal(text: &str) -> Option<String> {
     let digits = text.strip_prefix('#')?;
     if !digits.chars().all(|digit| digit.is_ascii_hexdigit()) {
@@ -61,7 +61,7 @@ fn hexadecimal(text: &str) -> Option<String> {
     match digits.len() {
         6 => Some(format!("#{digits}")),
         3 => Some(digits.chars().fold("#".into(), |all: String, digit| {
-            // Each stands for two of its like.
+            // Each digit is doubled.
             format!("{all}{digit}{digit}")
         })),
         _ => None,

@@ -1,7 +1,7 @@
-//! `[[geometry]]`: what bodies and the ground look like, for pictures alone.
+//! `[[geometry]]`: the appearance of bodies and the ground, for pictures only.
 //!
-//! `table => solid in its body's axes, colour`. Nothing of it is in the model: neither bits nor hashes nor exported
-//! source know of it. A shape is one row of [`SHAPES`]: its keys and what it makes of them.
+//! `table => solid in its body's axes, colour`. It is not part of the model and affects neither bits nor hashes nor
+//! exported source. A shape is one row of [`SHAPES`]: its keys and its reader.
 
 mod colour;
 
@@ -21,11 +21,11 @@ pub(crate) use colour::words as colour_words;
 /// A solid that pictures show.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeometryInfo {
-    /// The row of its body in the model; `None` for the ground.
+    /// The index of its body in the model; `None` for the ground.
     pub body: Option<usize>,
-    /// What it is, in the body's principal axes from its centre of mass; world for the ground.
+    /// The solid in the body's principal axes from its centre of mass; world for the ground.
     pub solid: Solid,
-    /// `#rrggbb`, where it has a colour of its own.
+    /// `#rrggbb`, if it has its own colour.
     pub colour: Option<String>,
 }
 
@@ -53,7 +53,7 @@ const KEYS: &[&str] = &["body", "shape", "colour"];
 /// \[m\] Greatest coordinate and size, as everywhere in a scene.
 const GREATEST: f64 = 1e150;
 
-/// Ends closer than this share of their coordinates are one.
+/// Ends coincide if they are closer than this fraction of their coordinates.
 const COINCIDENT: f64 = 1e-12;
 
 /// Every key of all shapes.
@@ -66,7 +66,7 @@ pub(crate) fn shapes() -> impl Iterator<Item = (&'static str, Vec<&'static str>)
     SHAPES.iter().map(|shape| (shape.name, [KEYS, shape.keys].concat()))
 }
 
-/// Whose axes a solid is written in.
+/// The body in whose axes a solid is given.
 struct Site<'a> {
     assembly: &'a Assembly,
     body: BodyIndex,
@@ -84,8 +84,8 @@ pub(crate) fn read_all(
         let (_, body) = table.required("body", BodyName { assembly, world: true })?;
         let solid = (shape.read)(&table, &Site { assembly, body })?;
         if !solid.numbers().iter().all(|number| number.abs() <= GREATEST) {
-            let help = "coordinates and sizes of at most 1e150 m";
-            return Err(table.refuse("is out of reach", help));
+            let help = "use coordinates and sizes of at most 1e150 m";
+            return Err(table.refuse("exceeds the range of coordinates", help));
         }
         let colour = table.optional("colour", Colour)?;
         all.push(GeometryInfo { body: (!body.is_world()).then(|| body.row()), solid, colour });
@@ -93,7 +93,7 @@ pub(crate) fn read_all(
     Ok(all)
 }
 
-/// Lets a table have the keys of its shape: defaults of other shapes are not its.
+/// Accepts only the keys of its shape: defaults of other shapes do not apply.
 pub(crate) fn allow(table: &Table<'_>) -> Result<(), SceneError> {
     table.only(&[KEYS, shape(table)?.keys])
 }
@@ -107,7 +107,7 @@ fn shape(table: &Table<'_>) -> Result<&'static Shape, SceneError> {
 }
 
 impl Solid {
-    /// All that is a coordinate or a size \[m\].
+    /// All coordinates and sizes \[m\].
     fn numbers(&self) -> Vec<f64> {
         match self {
             Self::Box { at, half, .. } => [at, half].into_iter().flatten().copied().collect(),
@@ -120,7 +120,7 @@ impl Solid {
 }
 
 impl Site<'_> {
-    /// A point that is given by a key; the centre of mass where it may be left out and is.
+    /// A point given by a key; `None` if the key is absent.
     fn place(&self, table: &Table<'_>, key: &str) -> Result<Option<Vec3<f64>>, SceneError> {
         table.optional(key, PlaceOf { assembly: self.assembly, body: self.body })
     }
@@ -134,8 +134,8 @@ impl Site<'_> {
         let largest = ends.as_flattened().iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         let longest = apart.to_f64().into_iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         if longest <= COINCIDENT * largest {
-            let help = "two different points; a ball is `shape = \"sphere\"`";
-            return Err(table.refuse_value("to", "is where `from` is", help));
+            let help = "give two different points, or use `shape = \"sphere\"`";
+            return Err(table.refuse_value("to", "coincides with `from`", help));
         }
         Ok(ends)
     }
@@ -156,8 +156,8 @@ fn cylinder(table: &Table<'_>, site: &Site<'_>) -> Result<Solid, SceneError> {
     let has = |key: &&str| table.has(key);
     let by_ends = ["from", "to"].iter().find(|key| has(key));
     let by_middle = ["at", "axis", "length"].iter().find(|key| has(key));
-    let help = "either `from` and `to`, the middles of its ends, or `axis` and `length`, about the centre of mass \
-                or about `at`";
+    let help = "give either `from` and `to`, the centres of its end faces, or `axis` and `length`, centred at the \
+                centre of mass or at `at`";
     let ends = match (by_ends, by_middle) {
         (Some(_), Some(key)) => {
             return Err(table.refuse_key(key, "contradicts `from` and `to`", help));
@@ -171,7 +171,7 @@ fn cylinder(table: &Table<'_>, site: &Site<'_>) -> Result<Solid, SceneError> {
             let half = 0.5 * table.required("length", Number::positive("m"))?;
             [-half, half].map(|along| (at + axis * along).to_f64())
         }
-        (None, None) => return Err(table.refuse("does not say where it lies", help)),
+        (None, None) => return Err(table.refuse("has no position", help)),
     };
     Ok(Solid::Cylinder { ends, radius: radius(table)? })
 }

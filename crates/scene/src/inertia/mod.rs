@@ -1,6 +1,6 @@
-//! `inertia`: principal moments, or a tensor that is brought to its principal axes.
+//! `inertia`: principal moments, or a tensor that is diagonalised.
 //!
-//! `value => moments, how the principal axes lie in the written ones`.
+//! `value => moments, orientation of the principal axes in the given axes`.
 
 mod principal;
 mod sections;
@@ -12,15 +12,14 @@ use crate::text::{Kind, Number, Numbers, Value};
 
 pub(crate) use sections::{KEYS, NAMES, Section, section, sizes};
 
-/// Relative slack of the triangle inequality: an inertia computed for a thin plate meets it with
-/// equality but for rounding.
+/// Relative slack of the triangle inequality: an inertia computed for a thin plate meets it with equality up to
+/// rounding.
 const TRIANGLE_SLACK: f64 = 1e-9;
 
-/// Two entries across the diagonal that differ by less than this share of the moments are one
-/// number printed twice.
+/// Two mirrored off-diagonal entries are equal if they differ by less than this fraction of the moments.
 const SYMMETRIC: f64 = 1e-9;
 
-/// A moment below this share of the greatest is 0 but for rounding.
+/// A moment below this fraction of the largest is 0 up to rounding.
 const LEAST: f64 = 1e-14;
 
 /// Moments about principal axes.
@@ -28,8 +27,7 @@ const LEAST: f64 = 1e-14;
 pub(crate) struct Inertia {
     /// \[kg·m²\] about the centre of mass.
     pub(crate) moments: [f64; 3],
-    /// The turn from the principal axes to the written ones, scalar first; `None` where they are the
-    /// same.
+    /// The rotation from the principal axes to the given ones, scalar first; `None` if they are the same.
     pub(crate) turn: Option<[f64; 4]>,
 }
 
@@ -80,7 +78,7 @@ impl Kind for AnyInertia {
     }
 }
 
-/// Reads a tensor and brings it to its principal axes.
+/// Reads a tensor and diagonalises it.
 fn tensor(value: &Value<'_>, expected: &str) -> Result<Inertia, SceneError> {
     let mut rows = [[0.0; 3]; 3];
     for (i, (row, entry)) in rows.iter_mut().zip(value.entries(3, expected)?).enumerate() {
@@ -95,8 +93,8 @@ fn tensor(value: &Value<'_>, expected: &str) -> Result<Inertia, SceneError> {
         if (a - b).abs() > SYMMETRIC * scale {
             let (x, y) = (NAMES[p], NAMES[q]);
             let problem = format!("is not symmetric: I{x}{y} = {a:?}, I{y}{x} = {b:?}");
-            let help = "a tensor of inertia is symmetric; entries off the diagonal are the negative \
-                        products of inertia, Ixy = −∫x·y dm";
+            let help = "give a symmetric tensor; its off-diagonal entries are the negative products of \
+                        inertia, Ixy = −∫x·y dm";
             return Err(value.refuse_with(&problem, help));
         }
         let mean = if a == b { a } else { 0.5 * (a + b) };
@@ -105,11 +103,11 @@ fn tensor(value: &Value<'_>, expected: &str) -> Result<Inertia, SceneError> {
     let found = principal::principal(rows);
     let [x, y, z] = found.moments;
     let (least, greatest) = (x.min(y).min(z), x.max(y).max(z));
-    // Not a number, too, where squares are beyond what a double holds.
+    // Also NaN, if squares overflow.
     if !(least > LEAST * greatest && greatest.is_finite()) {
         let problem = format!("has the principal moments {x:?}, {y:?} and {z:?}, not all above 0");
-        let help = "three moments > 0, and products too small to make one of them negative: \
-                    Ixy² < Ixx·Iyy and likewise for the others";
+        let help = "give three moments > 0 and small enough products of inertia: Ixy² < Ixx·Iyy and \
+                    likewise for the others";
         return Err(value.refuse_with(&problem, help));
     }
     if found.is_turned {
@@ -121,7 +119,7 @@ fn tensor(value: &Value<'_>, expected: &str) -> Result<Inertia, SceneError> {
     Ok(Inertia { moments: found.moments, turn })
 }
 
-/// Refuses an inertia that no distribution of mass has: one moment above the sum of the others.
+/// Rejects an inertia that no mass distribution has: one moment above the sum of the others.
 fn refuse_impossible(value: &Value<'_>, inertia: [f64; 3], about: &str) -> Result<(), SceneError> {
     let [x, y, z] = inertia;
     for (name, one, others, sum) in
@@ -129,10 +127,10 @@ fn refuse_impossible(value: &Value<'_>, inertia: [f64; 3], about: &str) -> Resul
     {
         if one > sum * (1.0 + TRIANGLE_SLACK) {
             let problem =
-                format!("breaks the triangle inequality{about}: {name} = {one:?} > {sum:?}");
+                format!("violates the triangle inequality{about}: {name} = {one:?} > {sum:?}");
             let help = format!(
-                "{name} ≤ {others}, and likewise for the others: principal moments of a rigid \
-                 body about its centre of mass"
+                "give principal moments of a rigid body about its centre of mass: {name} ≤ {others}, \
+                 and likewise for the others"
             );
             return Err(value.refuse_with(&problem, help));
         }

@@ -1,31 +1,30 @@
 //! Principal moments and axes of an inertia tensor.
 //!
-//! `symmetric tensor => moments, axes`. Jacobi's rotations in cyclic order (Golub & Van Loan, Matrix
-//! Computations, 8.5), each by at most an eighth of a turn; libm's root and nothing else, so the bits
-//! are the same on every host. Of the 24 orders and signs that make a right-handed triad the one nearest
-//! to the written axes is taken; a product below a rounding of the moments counts as none, so that a
-//! diagonal tensor keeps its bits and its axes.
+//! `symmetric tensor => moments, axes`. Jacobi's rotations in cyclic order (Golub & Van Loan, Matrix Computations,
+//! 8.5), each by at most 45°; the only function used is libm's square root, so the bits are the same on every host.
+//! Of the 24 orders and signs that make a right-handed triad the one nearest to the given axes is chosen; a product
+//! below the rounding error of the moments counts as 0, so a diagonal tensor keeps its bits and axes.
 
 use dbd_kernel::Vec3;
 
-/// Rotations of 3 × 3 tensors end after four or five sweeps.
+/// Maximum number of sweeps: 3 × 3 tensors converge after four or five.
 const SWEEPS: usize = 30;
 
 /// A symmetric 3 × 3 tensor.
 pub(crate) type Tensor = [[f64; 3]; 3];
 
-/// Moments and the axes that they are about.
+/// Principal moments and axes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Principal {
     /// About each axis.
     pub(crate) moments: [f64; 3],
     /// Right-handed unit vectors in the tensor's axes.
     pub(crate) axes: [Vec3<f64>; 3],
-    /// Whether they are not the tensor's own.
+    /// Whether they differ from the axes of the tensor.
     pub(crate) is_turned: bool,
 }
 
-/// Brings a tensor to its principal axes.
+/// Diagonalises a tensor.
 pub(crate) fn principal(tensor: Tensor) -> Principal {
     let mut t = tensor;
     // Columns are the axes.
@@ -55,7 +54,7 @@ pub(crate) fn principal(tensor: Tensor) -> Principal {
     nearest(moments, axes)
 }
 
-/// The rotation in the plane of two axes that makes their product 0.
+/// The rotation in the plane of two axes that eliminates their product of inertia.
 fn rotate(t: &mut Tensor, axes: &mut [[f64; 3]; 3], (p, q): (usize, usize)) {
     let product = t[p][q];
     let cotangent = (t[q][q] - t[p][p]) / (2.0 * product);
@@ -79,7 +78,7 @@ fn rotate(t: &mut Tensor, axes: &mut [[f64; 3]; 3], (p, q): (usize, usize)) {
     }
 }
 
-/// Order and signs such that the axes are nearest to the tensor's own.
+/// Chooses order and signs so that the axes are nearest to those of the tensor.
 fn nearest(moments: [f64; 3], columns: [[f64; 3]; 3]) -> Principal {
     const ORDERS: [[usize; 3]; 6] =
         [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
@@ -98,7 +97,7 @@ fn nearest(moments: [f64; 3], columns: [[f64; 3]; 3]) -> Principal {
     };
     let mut axes = [column(0), column(1), column(2)];
     if axes[0].cross(axes[1]).dot(axes[2]) < 0.0 {
-        // The one that says least of its direction.
+        // The axis with the least distinct direction.
         let along = |axis: &usize| axes[*axis].to_f64()[*axis];
         let least =
             (1..3).fold(0, |least, axis| if along(&axis) < along(&least) { axis } else { least });
@@ -143,13 +142,13 @@ mod tests {
             prop_assert!((a.dot(b) - product).abs() < 2e-15);
         }
         prop_assert!((x.cross(y).dot(z) - 1.0).abs() < 4e-15);
-        // Each axis is on the side of the written one, and no other order is nearer.
+        // Each axis has a positive component along the given one, and no other order is nearer.
         let axes = found.axes.map(Vec3::to_f64);
         let closeness = |order: [usize; 3]| (0..3).map(|i| axes[order[i]][i].abs()).sum::<f64>();
         for order in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
             prop_assert!(closeness([0, 1, 2]) >= closeness(order) - 1e-14, "{order:?}");
         }
-        // Two axes turned round leave it right-handed.
+        // Reversing two axes keeps it right-handed.
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
             prop_assert!(axes[i][i] + axes[j][j] >= -1e-14, "{found:?}");
         }
@@ -182,7 +181,7 @@ mod tests {
             }
         }
 
-        /// Moments that differ by little, or not at all: the axes are then any, but right-handed.
+        /// Nearly or exactly equal moments: the axes are arbitrary, but right-handed.
         #[test]
         fn nearly_equal_moments_make_no_harm(
             small in prop::array::uniform3(-1.0..1.0_f64),
@@ -201,14 +200,14 @@ mod tests {
         #[test]
         fn a_diagonal_tensor_keeps_its_bits(moments in prop::array::uniform3(1e-12..1e12_f64)) {
             let [x, y, z] = moments;
-            // Noise below a rounding of the moments is none.
+            // Noise below the rounding error of the moments counts as 0.
             let noise = 1e-17 * x.min(y).min(z);
             let found = principal([[x, noise, 0.0], [noise, y, -noise], [0.0, -noise, z]]);
             prop_assert_eq!(found.moments, moments);
             prop_assert!(!found.is_turned && found.axes == Vec3::axes());
         }
 
-        /// A turn of less than an eighth about an axis is found as that turn.
+        /// A rotation of less than 45° about an axis is found exactly.
         #[test]
         fn a_small_turn_is_found(angle in -0.7..0.7_f64, axis in 0..3_usize) {
             let (s, c) = (0.5 * angle).sin_cos();

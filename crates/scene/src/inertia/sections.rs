@@ -1,6 +1,6 @@
 //! `shape` and its sizes, of a link or of a body: mass and inertia of a uniform body.
 //!
-//! `table => shape, mass`. A link gives the length; a shape of its own says it.
+//! `table => shape, mass`. A link defines the length; a separate shape has a key for it.
 
 use crate::error::SceneError;
 use crate::inertia::shapes::Shape;
@@ -44,12 +44,12 @@ pub(crate) struct Section {
     pub(crate) mass: Option<Precise>,
     /// \[m²\] moments over the mass about x, y and z.
     pub(crate) moments: [Precise; 3],
-    /// What it looks like; `None` of what has no thickness.
+    /// Its solid; `None` without thickness.
     pub(crate) solid: Option<Solid>,
 }
 
-/// Reads a shape of a length along a body's axis. `key` names it, `others` are the table's other keys;
-/// `is_weighed` says that the body's mass is known without it.
+/// Reads a shape of a length along a body's axis. `key` names it, `others` are the table's other keys; `is_weighed`:
+/// the body has its own mass.
 pub(crate) fn section(
     table: &Table<'_>,
     key: &'static str,
@@ -74,7 +74,11 @@ pub(crate) fn section(
             None => {
                 let size = if name == "plate" { "thickness" } else { "diameter" };
                 let help = format!("add `{size}`, or give `mass` instead");
-                return Err(table.refuse_key("density", "is that of a body without volume", help));
+                return Err(table.refuse_key(
+                    "density",
+                    "is given for a body without volume",
+                    help,
+                ));
             }
         },
         (None, None) => None,
@@ -117,7 +121,7 @@ fn read(table: &Table<'_>, name: &str, length: Precise) -> Result<Shape, SceneEr
     })
 }
 
-/// \[m\] the inner diameter of what is hollow.
+/// \[m\] the inner diameter of a hollow shape.
 fn inner(table: &Table<'_>, outer: f64) -> Result<Precise, SceneError> {
     let wall = table.optional("wall", Number::positive("m"))?;
     let inner = table.optional("inner_diameter", Number::positive("m"))?;
@@ -134,7 +138,7 @@ fn inner(table: &Table<'_>, outer: f64) -> Result<Precise, SceneError> {
     };
     if !(0.0..outer).contains(&inner.nearest()) {
         let problem = format!("leaves no wall or no bore in a diameter of {outer:?} m");
-        let help = "an inner diameter from 0 to below the outer one; a wall of at most half of it";
+        let help = "give an inner diameter from 0 to below the outer one, or a wall of at most half the outer one";
         return Err(table.refuse_value(key, &problem, help));
     }
     Ok(inner)

@@ -6,14 +6,14 @@
 use crate::precise::{PI, Precise};
 use crate::solid::Solid;
 
-/// The moment of a slender rod about its own axis over the others: a line has none there, and a body
-/// needs one. So much a round bar has whose diameter is 8 % of its length.
+/// The moment of a slender rod about its own axis over the others: a line has none, but a body needs one. The value
+/// is that of a round bar with a diameter of 8 % of its length.
 const SLENDER: (f64, f64) = (1.0, 100.0);
 
 /// A uniform body; sizes in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Shape {
-    /// A line of a length.
+    /// A slender rod.
     SlenderRod { length: Precise },
     /// A solid or hollow cylinder, by its diameters.
     Cylinder { length: Precise, outer: Precise, inner: Precise },
@@ -24,7 +24,7 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
-    /// \[m³\], `None` of what has no thickness.
+    /// \[m³\], `None` without thickness.
     pub(crate) fn volume(self) -> Option<Precise> {
         let volume = match self {
             Self::SlenderRod { .. } => return None,
@@ -37,7 +37,7 @@ impl Shape {
         (volume.nearest() > 0.0).then_some(volume)
     }
 
-    /// The solid with its length along a body's axis; `None` of what has no thickness. What is hollow looks solid.
+    /// The solid with its length along a body's axis; `None` without thickness. Hollow shapes appear solid.
     pub(crate) fn solid(self, along: usize) -> Option<Solid> {
         let half = |size: Precise| 0.5 * size.nearest();
         let on_axis = |by: f64| {
@@ -105,8 +105,8 @@ fn cube(x: Precise) -> Precise {
 mod tests {
     use super::*;
 
-    /// Volume and moments over the mass by the sum over the middles of small cubes in the box of these
-    /// sides, refined until it is within its own error of 1/cells.
+    /// Volume and moments over the mass by summing over the centres of small cubes in the box of these sides, refined
+    /// until it is within its own error of 1/cells.
     fn summed(sides: [f64; 3], is_inside: impl Fn([f64; 3]) -> bool) -> (f64, [f64; 3]) {
         const CELLS: usize = 100;
         let middle = |i: usize, side: f64| ((i as f64 + 0.5) / CELLS as f64 - 0.5) * side;
@@ -152,7 +152,7 @@ mod tests {
             let sum = summed([0.4; 3], |[x, y, z]| in_ring(x * x + y * y + z * z, 0.4, inner));
             assert_near(ball, sum);
         }
-        // A plate is a box that is thin, a rod a cylinder that is.
+        // A plate is a thin box, a rod a thin cylinder.
         let thin = Shape::Block { size: [p(2.0), p(0.5), Precise::ZERO] };
         assert_eq!(thin.volume(), None);
         let moments = thin.moments().map(Precise::nearest);

@@ -1,4 +1,4 @@
-//! A law's constants out of its table.
+//! Reads the constants of a law from its table.
 
 use dbd_kernel::attitude::Attitude as _;
 use dbd_kernel::laws::{Field, FieldSource, MOST_TERMS, Term};
@@ -15,17 +15,17 @@ use crate::points::{Heading, PlaceOf};
 use crate::shortened::shortened;
 use crate::text::{Kind, Number, Table, Value};
 
-/// What a table belongs to.
+/// The owner of a table.
 pub(super) enum Of<'a> {
-    /// To a law by itself.
+    /// A separate interaction.
     Itself,
-    /// To a joint, which has its geometry.
+    /// A joint, which defines the geometry.
     Joint(OfJoint<'a>),
-    /// To a drive at a joint: its place, its input, its constants.
+    /// A drive at a joint: geometry, input, constants.
     Drive(&'a JointPlace, usize, Constants),
-    /// To a raw TSDA or a torsion spring: its points, its axis (world).
+    /// A raw TSDA or a torsion spring: points, axis (world).
     Spring([[f64; 3]; 2], Vec3<f64>),
-    /// To a coupling: its terms and constants.
+    /// A coupling: terms and constants.
     Coupling(Box<[Option<Term>; MOST_TERMS]>, Constants),
 }
 
@@ -61,7 +61,7 @@ impl<'a, 't> Reading<'a, 't> {
         Self { table, assembly, pair, of, inputs, refused: None }
     }
 
-    /// Why a constant was refused.
+    /// The error of a constant.
     pub(super) fn into_refused(self) -> Option<SceneError> {
         self.refused
     }
@@ -76,11 +76,11 @@ impl<'a, 't> Reading<'a, 't> {
         }
     }
 
-    /// The row of an input.
+    /// The index of an input.
     fn signal(&mut self, field: &Field) -> Option<u32> {
         match self.of {
             Of::Drive(_, input, _) => return u32::try_from(input).ok(),
-            // No input has this row: nothing drives it.
+            // No input has this index: it is not driven.
             Of::Joint(_) | Of::Spring(..) => return Some(u16::MAX.into()),
             Of::Itself | Of::Coupling(..) => {}
         }
@@ -88,7 +88,7 @@ impl<'a, 't> Reading<'a, 't> {
         self.keep(read)
     }
 
-    /// A direction in the axes of the first body, as a joint's axis is given.
+    /// A direction in the axes of the first body, given like a joint's axis.
     fn heading(&mut self, field: &Field) -> Option<Vec3<f64>> {
         let (assembly, table, a) = (self.assembly, self.table, self.pair.a);
         if let Some(place) = self.of.place() {
@@ -143,7 +143,7 @@ impl FieldSource for Reading<'_, '_> {
                 Ok(number as u32)
             } else {
                 let help = format!("`{}` of {} must be a whole number", field.name, table.label());
-                Err(table.refuse_value(field.name, "is no whole number", help))
+                Err(table.refuse_value(field.name, "is not a whole number", help))
             }
         });
         self.keep(read)
@@ -202,7 +202,7 @@ impl Kind for InputName<'_> {
         row.and_then(|row| u32::try_from(row).ok()).ok_or_else(|| {
             let help = match nearest(name, self.0.iter().map(String::as_str)) {
                 Some(meant) => format!("did you mean \"{meant}\"?"),
-                None => "an input of the type \"signal\", or any other".into(),
+                None => "name an input of the type \"signal\" or of another type".into(),
             };
             value.refuse_with(&format!("names no input: \"{}\"", shortened(name)), help)
         })
@@ -245,7 +245,7 @@ impl Kind for Knots {
 
     fn expected(&self) -> String {
         let [x, y] = self.units.map(|unit| if unit.is_empty() { "1" } else { unit });
-        format!("2 to {} knots [x in {x}, y in {y}], x ascending", self.most)
+        format!("2 to {} knots [x in {x}, y in {y}] with ascending x", self.most)
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
@@ -261,7 +261,7 @@ impl Kind for Knots {
             let knot = [x.read(&pair[0])?, y.read(&pair[1])?];
             if knots.last().is_some_and(|last| last[0] >= knot[0]) {
                 return Err(
-                    entry.refuse("has an x that is not above the one before", &self.expected())
+                    entry.refuse("has an x not above that of the knot before", &self.expected())
                 );
             }
             knots.push(knot);

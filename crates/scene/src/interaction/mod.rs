@@ -1,4 +1,4 @@
-//! `[[interaction]]`, and what joints, springs, drives and couplings have of laws between bodies.
+//! `[[interaction]]`, and the laws of joints, springs, drives and couplings.
 //!
 //! `tables => rows of laws`.
 
@@ -53,8 +53,7 @@ impl Kind for LawName<'_> {
                 None => String::new(),
             };
             let help = format!(
-                "{meant}this program knows {}; a law of one's own is a type in a crate: `host-sim new laws` \
-                 writes one",
+                "{meant}known laws: {}; `host-sim new laws` creates a crate for user-defined laws",
                 self.expected().trim_start_matches("the name of a law: "),
             );
             value.refuse_with(&format!("names no law: \"{}\"", shortened(name)), help)
@@ -62,38 +61,38 @@ impl Kind for LawName<'_> {
     }
 }
 
-/// What a scene's interactions are called, and what they show.
+/// Labels and quantities of the interactions of a scene.
 #[derive(Default)]
 pub(crate) struct Read {
-    /// What messages call them, in the order of the model's rows.
+    /// Labels in messages, in the order of the model's rows.
     pub(crate) labels: Vec<String>,
-    /// Where each one stands.
+    /// Position of each in the scene.
     pub(crate) places: Vec<LawPlace>,
-    /// What each shows.
+    /// Quantities of each.
     pub(crate) quantities: Vec<&'static [laws::Quantity]>,
 }
 
-/// An interaction that is read: its name, if it has one, with the table that it is refused by; its label; its place.
+/// An interaction as read: its optional name, its table for errors, its label, its position in the scene.
 struct One<'t> {
     name: Option<String>,
     table: Table<'t>,
     label: String,
     place: LawPlace,
-    /// What it shows where that is not what its law says.
+    /// Its quantities if they differ from those of its law.
     quantities: Option<&'static [laws::Quantity]>,
 }
 
-/// The rows of each law so far.
+/// The rows of each law added so far.
 struct Rows<'t> {
     known: Vec<KnownLaw>,
     /// The names of the inputs.
     inputs: Vec<String>,
-    /// A law by its place among those known, its rows, and what they are.
+    /// Per law: index among the known laws, rows, and their interactions.
     laws: Vec<(usize, Box<dyn SourceRows>, Vec<One<'t>>)>,
 }
 
 impl<'t> Rows<'t> {
-    /// Adds a row of a law by its place among those known.
+    /// Adds a row of the law with this index among the known laws.
     fn add(
         &mut self,
         law: usize,
@@ -114,7 +113,9 @@ impl<'t> Rows<'t> {
             return Err(refused);
         }
         if done.is_none() {
-            return Err(table.refuse("cannot be read", "a constant of the law is missing"));
+            return Err(
+                table.refuse("lacks a constant of its law", "give all constants of the law")
+            );
         }
         if let Some(wrong) = rows.wrong() {
             let help = format!("`{}` of {} must be {}", wrong.field, table.label(), wrong.expected);
@@ -125,8 +126,8 @@ impl<'t> Rows<'t> {
     }
 }
 
-/// Reads all interactions, those of joints before those of `[[interaction]]`: those of one law stand together in the
-/// model, in the order in which the scene first has their law.
+/// Reads all interactions, those of joints before those of `[[interaction]]`: those of one law are contiguous in the
+/// model, and laws are in the order of their first use in the scene.
 pub(crate) fn read_all(
     root: &Table<'_>,
     joints: &[JointPlace],
@@ -148,14 +149,14 @@ pub(crate) fn read_all(
         }
         let law = table.required("law", LawName(known))?;
         if !known[law].is_between() {
-            let help = "a sum of coordinates of joints is a [[coupling]]";
-            return Err(table.refuse_value("law", "is no law between two bodies", help));
+            let help = "use a [[coupling]] for a sum of joint coordinates";
+            return Err(table.refuse_value("law", "is not a law between two bodies", help));
         }
         let fields = known[law].fields.iter();
         table.only(&[KEYS, &fields.map(|field| field.name).collect::<Vec<_>>()])?;
         let pair = table.required("between", Between(assembly))?;
         if pair.b.is_world() {
-            let help = "the ground comes first: between = [\"world\", BODY]";
+            let help = "put the ground first: between = [\"world\", BODY]";
             return Err(table.refuse_value("between", "has the ground as its second body", help));
         }
         let (label, place) = (pair.label(&table), ("interaction", number));

@@ -1,4 +1,4 @@
-//! `[[coupling]]`: a sum of coordinates of joints, held by a spring.
+//! `[[coupling]]`: a spring that acts on a weighted sum of joint coordinates.
 //!
 //! `(table, joints) => terms and constants of the law`. The sum has the unit of its first coordinate.
 
@@ -21,11 +21,11 @@ pub(crate) const KEYS: &[&str] = &["name", "of", "offset", "stiffness", "damping
 /// The keys of a term.
 pub(crate) const TERM: &[&str] = &["joint", "freedom", "factor"];
 
-/// What a coupling of travels shows.
+/// Quantities of a coupling of translations.
 const OF_TRAVELS: &[Quantity] =
     &[Quantity { name: "load", unit: "N" }, Quantity { name: "stretch", unit: "m" }];
 
-/// A coupling as it is written.
+/// A coupling as read.
 pub(super) struct Coupled<'j> {
     /// The bodies of its first joint.
     pub(super) pair: &'j Pair,
@@ -33,7 +33,7 @@ pub(super) struct Coupled<'j> {
     pub(super) joints: Vec<&'j str>,
     pub(super) terms: [Option<Term>; MOST_TERMS],
     pub(super) constants: Constants,
-    /// What it shows where that is not what the law says.
+    /// Its quantities if they differ from those of the law.
     pub(super) quantities: Option<&'static [Quantity]>,
 }
 
@@ -78,7 +78,7 @@ impl<'j> Coupled<'j> {
     }
 }
 
-/// A term as it is written.
+/// A term as read.
 struct Read<'j> {
     place: &'j JointPlace,
     turns: bool,
@@ -130,7 +130,7 @@ impl<'j> Kind for Of<'j, '_> {
             let known = |read: &&Read<'_>| read.place.name == place.name && read.turns == turns;
             if read.iter().find(known).is_some() {
                 let problem = format!("names `{}` a second time", place.name);
-                let help = "a coordinate has one factor; two factors of it are their sum";
+                let help = "name each coordinate once, with the sum of its factors";
                 return Err(table.refuse_value("joint", &problem, help));
             }
             let unit = match read.first().map(|first| first.turns) {
@@ -144,7 +144,8 @@ impl<'j> Kind for Of<'j, '_> {
                 false => table.required("factor", kind)?,
             };
             if factor == 0.0 {
-                let help = "how much of the coordinate belongs to the sum, as -3 of a 3 : 1 gear";
+                let help =
+                    "give the factor of the coordinate in the sum, for example -3 for a 3 : 1 gear";
                 return Err(table.refuse_value("factor", "is 0", help));
             }
             read.push(Read { place, turns, factor });

@@ -1,7 +1,8 @@
 //! `[[input]]` of the type `drive`: a motor at a joint, as a law about or along its axis.
 //!
-//! `(table of an input, joints) => law, its constants, unit of the input`. What stands in front of a gear is brought to its
-//! output here, in double precision: inertia times the square of the ratio, constant times the ratio.
+//! `(table of an input, joints) => law, its constants, unit of the input`. Quantities at the input of a gear are
+//! converted to its output here, in double precision: inertia times the square of the ratio, constant times the
+//! ratio.
 
 use crate::error::SceneError;
 use crate::joints::JointPlace;
@@ -22,7 +23,7 @@ pub(crate) const GEAR: &[&str] = &["stiffness", "damping", "play"];
 /// The keys of its winding.
 pub(crate) const WINDING: &[&str] = &["resistance", "inductance", "constant", "most_current"];
 
-/// What its input is.
+/// The quantity of its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Mode {
     Position,
@@ -47,7 +48,7 @@ impl Mode {
     }
 }
 
-/// Units of what a drive does about an axis or along it.
+/// Units of a drive about or along an axis.
 struct Units {
     place: &'static str,
     rate: &'static str,
@@ -67,7 +68,7 @@ const TURN: Units = Units {
 const TRAVEL: Units =
     Units { place: "m", rate: "m/s", effort: "N", stiffness: "N/m", damping: "N·s/m" };
 
-/// Where a drive acts and what its input is.
+/// The joint coordinate and mode of a drive.
 pub(crate) struct Driven<'j> {
     /// Its joint.
     pub(super) place: &'j JointPlace,
@@ -76,7 +77,7 @@ pub(crate) struct Driven<'j> {
 }
 
 impl<'j> Driven<'j> {
-    /// Reads the keys that say so.
+    /// Reads `target`, `freedom` and `mode`.
     pub(crate) fn read(
         table: &Table<'_>,
         places: &'j [JointPlace],
@@ -109,8 +110,10 @@ impl<'j> Driven<'j> {
         let has_rotor = table.has("rotor");
         for (key, why) in [("ratio", "ratio"), ("gear", "gear")] {
             if !has_rotor && table.has(key) && !(key == "ratio" && self.mode.is_wound()) {
-                let help = format!("a {why} is between a joint and a `rotor`: its inertia");
-                return Err(table.refuse_key(key, "stands without a `rotor`", &help));
+                let help = format!(
+                    "give the inertia of the motor as `rotor`: a {why} connects it to the joint"
+                );
+                return Err(table.refuse_key(key, "requires a `rotor`", &help));
             }
         }
         let ratio = self.ratio(table, has_rotor)?;
@@ -127,7 +130,7 @@ impl<'j> Driven<'j> {
         Ok((law, constants))
     }
 
-    /// Turns of the rotor per turn of the joint, or \[rad/m\] per travel; 1 where there is none.
+    /// Rotation of the rotor per rotation of the joint, or \[rad/m\] per translation; 1 by default.
     fn ratio(&self, table: &Table<'_>, has_rotor: bool) -> Result<f64, SceneError> {
         let unit = if self.turns { "" } else { "rad/m" };
         let given = table.optional("ratio", Number::any(unit))?;
@@ -135,17 +138,17 @@ impl<'j> Driven<'j> {
             return Err(table.refuse_value(
                 "ratio",
                 "is 0",
-                "turns of the rotor per motion of the joint",
+                "give the rotation of the rotor per motion of the joint",
             ));
         }
         if given.is_none() && !self.turns && has_rotor && self.mode.is_wound() {
-            let help = "a winding turns its rotor: `ratio` in rad/m says by how much per travel";
-            return Err(table.refuse_key("winding", "stands without a `ratio`", help));
+            let help = "give the rotation of the rotor per travel as `ratio` in rad/m";
+            return Err(table.refuse_key("winding", "requires a `ratio`", help));
         }
         Ok(given.unwrap_or(1.0))
     }
 
-    /// What drives, and its bound.
+    /// Control law and effort limit.
     fn effort(
         &self,
         table: &Table<'_>,
@@ -164,12 +167,14 @@ impl<'j> Driven<'j> {
         for key in ["kp", "kd", "lag", "winding"] {
             if table.has(key) && !own.contains(&key) {
                 let help = match key {
-                    "kp" => "the stiffness of the mode \"position\"",
-                    "kd" => "the damping of the modes \"position\" and \"velocity\"",
-                    "lag" => "the current of a voltage follows it by its winding's `inductance`",
-                    _ => "a winding is driven in the modes \"voltage\" and \"current\"",
+                    "kp" => "`kp` is the stiffness of the mode \"position\"",
+                    "kd" => "`kd` is the damping of the modes \"position\" and \"velocity\"",
+                    "lag" => {
+                        "in the mode \"voltage\" the `inductance` of the winding determines the lag"
+                    }
+                    _ => "`winding` belongs to the modes \"voltage\" and \"current\"",
                 };
-                return Err(table.refuse_key(key, "does not go with this `mode`", help));
+                return Err(table.refuse_key(key, "is not compatible with this `mode`", help));
             }
         }
         let mut most = table.optional("most", Number::positive(units.effort))?;
@@ -201,7 +206,7 @@ impl<'j> Driven<'j> {
         if !has_rotor {
             if matches!(self.mode, Mode::Torque | Mode::Current) {
                 let help = format!(
-                    "the inertia of the motor's rotor in {}; without one an input of the type \"{}\"",
+                    "the inertia of the motor's rotor in {}; without a rotor use an input of the type \"{}\"",
                     if self.turns {
                         "kg·m²"
                     } else {
@@ -213,8 +218,8 @@ impl<'j> Driven<'j> {
             }
             if lag > 0.0 {
                 let key = if table.has("lag") { "lag" } else { "winding" };
-                let help = "an effort that follows late acts on a `rotor` with a `gear`";
-                return Err(table.refuse_key(key, "has a lag without a `rotor`", help));
+                let help = "add a `rotor` with a `gear`, on which a lagging effort acts";
+                return Err(table.refuse_key(key, "causes a lag, which requires a `rotor`", help));
             }
         } else {
             constants.add("lag", lag);
@@ -238,7 +243,7 @@ impl<'j> Driven<'j> {
             table.required("rotor", Number::positive(if turns { "kg·m²" } else { "kg" }))?;
         constants.add("inertia", inertia * (ratio * ratio));
         let expected = format!(
-            "{{ stiffness = … }} in {} at its output: a rotor behind a rigid gear would couple the joints of a chain",
+            "{{ stiffness = … }} in {} at its output; a rotor behind a rigid gear would couple the joints of a chain",
             units.stiffness
         );
         let Some(value) = table.value("gear") else { return Err(table.missing("gear", &expected)) };
@@ -253,7 +258,7 @@ impl<'j> Driven<'j> {
     }
 }
 
-/// Constants of a law by their fields; the others are as the law has them.
+/// Constants of a law by field; the others have the defaults of the law.
 #[derive(Default)]
 pub(super) struct Constants(Vec<(&'static str, f64)>);
 
@@ -262,7 +267,7 @@ impl Constants {
         self.0.push((field, number));
     }
 
-    /// That of a field.
+    /// The constant of a field.
     pub(super) fn get(&self, field: &str) -> Option<f64> {
         self.0.iter().find(|(known, _)| *known == field).map(|(_, number)| *number)
     }
@@ -294,7 +299,7 @@ impl crate::text::Kind for Winding {
         table.only(&[WINDING])?;
         let constant = table.required("constant", Number::any("N·m/A"))?;
         if constant == 0.0 {
-            let help = "torque per current of the motor's shaft in N·m/A";
+            let help = "give the torque at the motor's shaft per current in N·m/A";
             return Err(table.refuse_value("constant", "is 0", help));
         }
         let most_current = table.optional("most_current", Number::positive("A"))?;
@@ -302,8 +307,12 @@ impl crate::text::Kind for Winding {
             for key in ["resistance", "inductance"] {
                 if table.has(key) {
                     let help =
-                        "the current is given; in the mode \"voltage\" it follows the voltage";
-                    return Err(table.refuse_key(key, "says nothing of a given current", help));
+                        "remove it: only in the mode \"voltage\" does the current depend on it";
+                    return Err(table.refuse_key(
+                        key,
+                        "has no effect in the mode \"current\"",
+                        help,
+                    ));
                 }
             }
             return Ok(OfWinding { resistance: 0.0, inductance: 0.0, constant, most_current });

@@ -1,7 +1,7 @@
 //! `limits`, `friction` and `rotor` of joints: laws about and along their axes.
 //!
-//! `(table of a joint, its place, key) => the constants of a law`. Angle and travel count from t = 0, where they are 0
-//! or `offset`.
+//! `(table of a joint, its place, key) => the constants of a law`. Angles and travels are relative to t = 0, where
+//! they are 0 or `offset`.
 
 use dbd_kernel::laws::Field;
 
@@ -11,7 +11,7 @@ use crate::joints::JointPlace;
 use crate::laws::dissipation;
 use crate::text::{Number, Table};
 
-/// A key of a type of joint and the law that it stands for: `("revolute", "limits", "hinge-stop")`.
+/// Joint type, key and its law: `("revolute", "limits", "hinge-stop")`.
 pub(super) const OF_JOINTS: [(&str, &str, &str); 12] = [
     ("revolute", "limits", "hinge-stop"),
     ("revolute", "friction", "hinge-friction"),
@@ -35,10 +35,10 @@ pub(crate) const LIMITS: &[&str] =
 pub(crate) const FRICTION: &[&str] =
     &["coulomb", "breakaway", "stribeck", "give", "damping", "viscous"];
 
-/// The keys of a rotor that nothing drives.
+/// The keys of a rotor without a drive.
 pub(crate) const ROTOR: &[&str] = &["inertia", "stiffness", "damping", "play"];
 
-/// The keys of a table of this key of a joint, and how it looks.
+/// The keys of the table of a joint key, and an example.
 pub(super) fn keys_of(key: &str) -> (&'static [&'static str], &'static str) {
     match () {
         () if key.ends_with("limits") => (LIMITS, "{ from = …, to = …, stiffness = … }"),
@@ -47,23 +47,23 @@ pub(super) fn keys_of(key: &str) -> (&'static [&'static str], &'static str) {
     }
 }
 
-/// Beyond any angle and travel.
+/// Larger than any angle or travel.
 const NONE: f64 = 1e30;
 
 /// A table of `limits`, `friction` or a `rotor` of a joint.
 pub(super) struct OfJoint<'j> {
-    /// Where the joint is.
+    /// Geometry of the joint.
     pub(super) place: &'j JointPlace,
     is_limits: bool,
     is_friction: bool,
     /// The constants of its law.
     fields: &'static [Field],
-    /// \[1/(kg·m²), 1/kg\] of its two bodies, each free.
+    /// \[1/(kg·m²), 1/kg\] inverse reduced inertia of its two free bodies.
     mobility: f64,
 }
 
 impl<'j> OfJoint<'j> {
-    /// Refuses keys that there are not, and limits that limit nothing.
+    /// Rejects unknown keys and limits without `from` and `to`.
     pub(super) fn new(
         table: &Table<'_>,
         key: &str,
@@ -77,14 +77,14 @@ impl<'j> OfJoint<'j> {
         if is_limits {
             check_limits(table)?;
         }
-        // What turns is in radians.
+        // Rotations are in radians.
         let turns = fields.iter().any(|field| field.kind == "axis");
         let about = turns.then_some(place.axis_w);
         let mobility = assembly.mobility([place.pair.a, place.pair.b], about);
         Ok(Self { place, is_limits, is_friction, fields, mobility })
     }
 
-    /// A number that the law has and the table gives in another way; `None` where it is read as it stands.
+    /// A constant of the law that the table specifies differently; `None` if it is read directly.
     pub(super) fn number(
         &self,
         table: &Table<'_>,
@@ -101,7 +101,7 @@ impl<'j> OfJoint<'j> {
         }
     }
 
-    /// Half of what would be critical for the elastic part of the motion, the two bodies free: `√(k·μ)`, k the stiffness
+    /// Half the critical damping of the elastic motion of the two free bodies: `√(k·μ)`, with the stiffness k =
     /// `breakaway`/`give`.
     fn damping(&self, table: &Table<'_>) -> Result<f64, SceneError> {
         let given = |key: &str| {
@@ -119,7 +119,7 @@ impl<'j> OfJoint<'j> {
     }
 }
 
-/// A number of a law of limits that their table gives in another way.
+/// A constant of a law of limits that the table specifies differently.
 pub(super) fn limit(
     table: &Table<'_>,
     key: &str,
@@ -137,31 +137,37 @@ pub(super) fn limit(
     }
 }
 
-/// Refuses limits that limit nothing.
+/// Rejects limits without `from` and `to`.
 pub(super) fn check_limits(table: &Table<'_>) -> Result<(), SceneError> {
     if table.has("from") || table.has("to") {
         return Ok(());
     }
-    Err(table.refuse("limits nothing", "`from`, `to` or both"))
+    Err(table.refuse("limits nothing", "give `from`, `to` or both"))
 }
 
 /// `restitution` and `speed` as the coefficient of Hunt and Crossley.
 fn restituted(table: &Table<'_>, unit: &'static str) -> Result<Option<f64>, SceneError> {
     let Some(restitution) = table.optional("restitution", Number::any(""))? else {
         return match table.has("speed") {
-            true => {
-                Err(table.refuse_key("speed", "has no `restitution`", "both, or `dissipation`"))
-            }
+            true => Err(table.refuse_key(
+                "speed",
+                "requires `restitution`",
+                "give both, or `dissipation`",
+            )),
             false => Ok(None),
         };
     };
     if table.has("dissipation") {
-        let help = "either says how much an impact loses";
-        return Err(table.refuse_key("dissipation", "stands beside `restitution`", help));
+        let help = "give only one: each determines the energy loss of an impact";
+        return Err(table.refuse_key("dissipation", "contradicts `restitution`", help));
     }
     if !(restitution > 0.0 && restitution <= 1.0) {
-        let help = "speed after an impact over speed before it, in (0, 1]";
-        return Err(table.refuse_value("restitution", "is no ratio of speeds", help));
+        let help = "give the speed after an impact over the speed before it, in (0, 1]";
+        return Err(table.refuse_value(
+            "restitution",
+            "is not a valid coefficient of restitution",
+            help,
+        ));
     }
     let speed = if unit == "s/rad" { "rad/s" } else { "m/s" };
     Ok(Some(dissipation(restitution, table.required("speed", Number::positive(speed))?)))
@@ -171,7 +177,7 @@ fn restituted(table: &Table<'_>, unit: &'static str) -> Result<Option<f64>, Scen
 mod tests {
     use super::*;
 
-    /// Rebounds of the law by its own integration: 0.7119501796 at a·v = 0.6.
+    /// Reference from separate integration of the law: restitution 0.7119501796 at a·v = 0.6.
     #[test]
     fn restitution_is_that_of_the_law() {
         assert!((dissipation(0.711_950_179_6, 1.0) - 0.6).abs() < 1e-9);
@@ -179,7 +185,7 @@ mod tests {
         assert_eq!(dissipation(1.0, 1.0), 0.0);
         for e in [0.999_999, 0.9, 0.5, 0.1, 1e-3] {
             let (h, k, a) = (1e-5, 1.0, dissipation(e, 1.0));
-            // Forces alone, small steps: v' = −k·x·(1 + a·v).
+            // Integrates the law alone with small steps: v' = −k·x·(1 + a·v).
             let (mut x, mut v) = (0.0_f64, 1.0_f64);
             while x >= 0.0 {
                 let force = |x: f64, v: f64| -(k * x * (1.0 + a * v)).max(0.0);

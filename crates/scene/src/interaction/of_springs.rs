@@ -1,6 +1,7 @@
-//! `limits` of raw TSDAs and of torsion springs: stops of their lengths and twists.
+//! `limits` of raw TSDAs and of torsion springs: stops of their lengths and torsion angles.
 //!
-//! `(table of a spring, its limits) => bodies, geometry of the law`. A length is what it is, a twist counts from t = 0.
+//! `(table of a spring, its limits) => bodies, geometry of the law`. Lengths are absolute, torsion angles are
+//! relative to t = 0.
 
 use dbd_kernel::Vec3;
 
@@ -13,12 +14,12 @@ use crate::pair::Pair;
 use crate::points::Heading;
 use crate::text::Table;
 
-/// The keys of limits of a length: an offset has nothing to count from.
+/// The keys of limits of a length, which has no offset.
 fn keys(kind: &str) -> Vec<&'static str> {
     LIMITS.iter().copied().filter(|key| kind != "tsda" || *key != "offset").collect()
 }
 
-/// What stops a spring: its bodies, exchanged where the ground is the second one, its points or its axis.
+/// The bodies of a stop, exchanged if the ground is the second one, and its points or axis.
 pub(super) fn limits<'a>(
     owner: &Table<'_>,
     table: &Table<'_>,

@@ -17,31 +17,31 @@ use crate::text::{Kind, Number, Table, Text, Value};
 
 pub(super) const KEYS: &[&str] = &["fixed", "angles", "rates", "length", "tolerance", "iterations"];
 
-/// \[m\] by which a joint may stay open where the scene does not say.
+/// \[m\] default tolerance of a closed joint.
 const TOLERANCE: f64 = 1e-9;
 
-/// Most steps where the scene does not say.
+/// Default maximum number of steps.
 const ITERATIONS: usize = 200;
 
-/// \[m, rad\] less than this is rounding.
+/// \[m, rad\] smaller values are rounding errors.
 pub(crate) const ROUNDING: f64 = 1e-12;
 
-/// What was moved to close the joints of a scene.
+/// Result of closing the joints of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Assembled {
     /// The bodies that were moved, in the order of the scene.
     pub moved: Vec<Moved>,
     /// The joints that were open, in the order of the scene.
     pub open: Vec<OpenJoint>,
-    /// The joint that stays open most at the poses found; `None` without joints.
+    /// The joint with the largest remaining gap; `None` without joints.
     pub left: Option<OpenJoint>,
     /// The bodies that were given velocities that the joints allow, in the order of the scene.
     pub set_moving: Vec<String>,
-    /// Steps that were computed.
+    /// Number of steps computed.
     pub iterations: usize,
-    /// Freedoms that the joints leave to the bodies that may be moved.
+    /// Freedoms of the movable bodies.
     pub freedoms: usize,
-    /// Constraints that others imply.
+    /// Number of redundant constraints.
     pub held_twice: usize,
     /// \[m\] the length at which a radian counted as a metre.
     pub length: f64,
@@ -52,9 +52,9 @@ pub struct Assembled {
 pub struct Moved {
     /// Its name.
     pub body: String,
-    /// \[m\] by which its centre of mass was moved.
+    /// \[m\] displacement of its centre of mass.
     pub distance: f64,
-    /// \[rad\] by which it was turned.
+    /// \[rad\] angle of its rotation.
     pub angle: f64,
 }
 
@@ -103,10 +103,10 @@ pub(crate) fn read(
     };
     let largest = closure::largest_island(&closures, &movable);
     if largest > MOST_BODIES {
-        let problem = format!("is to move {largest} bodies that hang together");
+        let problem = format!("has to move {largest} connected bodies");
         let help = format!(
-            "at most {MOST_BODIES} can be assembled at once: `fixed` parts them, or poses that are \
-             written need no [assemble]"
+            "at most {MOST_BODIES} can be assembled at once: separate them with `fixed`, or give all poses \
+             and remove [assemble]"
         );
         return Err(value.refuse_with(&problem, help));
     }
@@ -118,7 +118,7 @@ pub(crate) fn read(
     };
     let mut outcome =
         closure::close(turned.as_ref().unwrap_or(&closures), &given, &movable, settings);
-    // What is no number is open.
+    // NaN counts as open.
     let is_closed = |opening: &Opening| opening.distance + length * opening.angle <= tolerance;
     if !outcome.openings.iter().all(is_closed) {
         let gaps = closure::gaps(&closures, &given, &movable, length, &outcome);
@@ -126,7 +126,7 @@ pub(crate) fn read(
         return Err(open(&tables, &gaps, (&sites, &movable), (length, spent), assembly));
     }
     if turned.is_some() {
-        // Of the joints alone, which are closed: nothing moves, and what they leave free is counted.
+        // The closed joints without prescribed angles: nothing moves, and their freedoms are counted.
         let joints = closure::close(&closures, &outcome.poses, &movable, settings);
         (outcome.freedoms, outcome.held_twice) = (joints.freedoms, joints.held_twice);
     }
@@ -150,20 +150,20 @@ pub(crate) fn read(
     Ok(Some(Assembled { moved, open, left, set_moving, iterations, freedoms, held_twice, length }))
 }
 
-/// The closures of joints some of which are turned by an angle \[rad\] from the poses as written.
+/// The closures of the joints, some rotated by an angle \[rad\] from the given poses.
 fn angles(
     value: &Value<'_>,
     tables: &[Table<'_>],
     closures: &[Closure],
 ) -> Result<Vec<Closure>, SceneError> {
-    let table = value.table("{ JOINT = angle }: rad from the poses as written")?;
+    let table = value.table("{ JOINT = angle }, in rad from the given poses")?;
     let mut turned = closures.to_vec();
     for (row, value) in rates::by_joint(&table, tables, "angles")? {
         let kind = kind(&tables[row])?.name;
         let closure = &mut turned[row];
         if closure.turn != Turn::Axis {
             let problem = format!("is the angle of a {kind} joint");
-            let help = "angles are those of revolute and cylindrical joints";
+            let help = "give angles of revolute and cylindrical joints only";
             return Err(value.refuse_with(&problem, help));
         }
         let angle = Number::any("rad").read(&value)?;
@@ -174,7 +174,7 @@ fn angles(
     Ok(turned)
 }
 
-/// Moves the bodies of the assembly to where they have come.
+/// Moves the bodies of the assembly to the poses found.
 fn place(assembly: &mut Assembly, given: &[closure::Pose], outcome: &Outcome) -> Vec<Moved> {
     let mut moved = Vec::new();
     for (row, (pose, given)) in outcome.poses.iter().zip(given).enumerate() {
@@ -195,7 +195,7 @@ fn place(assembly: &mut Assembly, given: &[closure::Pose], outcome: &Outcome) ->
     moved
 }
 
-/// The refusal of joints that do not close, at the one that is open most.
+/// The error of joints that do not close, at the one with the largest gap.
 fn open(
     tables: &[Table<'_>],
     gaps: &[Opening],
@@ -205,7 +205,7 @@ fn open(
 ) -> SceneError {
     let size = |row: &usize| gaps[*row].distance + length * gaps[*row].angle;
     let mut rows: Vec<usize> = (0..tables.len()).collect();
-    // Of equal ones the first.
+    // The first of equal ones.
     rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
     let worst = rows[0];
     let others = rows[1..].iter().filter(|row| size(row) > 1e-2 * size(&worst));
@@ -214,22 +214,21 @@ fn open(
     let pair = &sites[worst].pair;
     let stands =
         [pair.a, pair.b].iter().all(|end| !movable.get(end.row()).copied().unwrap_or(false));
-    let problem = format!("stays open by {}, wherever the bodies are moved", shown(gaps[worst]));
+    let problem = format!("stays open by {} at the closest poses found", shown(gaps[worst]));
     let mut help = if stands {
         let [a, b] = &pair.names;
-        format!("neither `{a}` nor `{b}` may be moved: take one of them out of `fixed`")
+        format!("neither `{a}` nor `{b}` may be moved: remove one of them from `fixed`")
     } else {
         let all = assembly.states().len() == movable.iter().filter(|free| **free).count();
         format!(
-            "the bodies between do not reach: other lengths, {}{}or poses nearer to where the joints \
-             close; `tolerance` in [assemble] allows a gap",
-            if all { "" } else { "fewer bodies that are `fixed`, " },
+            "use other lengths, {}{}or poses nearer to the closed ones; `tolerance` in [assemble] allows a gap",
+            if all { "" } else { "fewer `fixed` bodies, " },
             if spent { "more `iterations`, " } else { "" },
         )
     };
     if !others.is_empty() {
         let more = others.len().saturating_sub(4);
-        help += &format!("; open stay also {}", others[..others.len() - more].join(", "));
+        help += &format!("; also open: {}", others[..others.len() - more].join(", "));
         if more > 0 {
             help += &format!(" and {more} more");
         }
@@ -257,9 +256,10 @@ impl Kind for Steps {
     }
 }
 
-/// The rows of the bodies that are not moved.
+/// The indices of the fixed bodies.
 fn fixed(value: &Value<'_>, assembly: &Assembly) -> Result<Vec<usize>, SceneError> {
     let name = BodyName { assembly, world: false };
-    let entries = value.array(&format!("an array of names of bodies; `{WORLD}` is never moved"))?;
+    let entries =
+        value.array(&format!("an array of names of bodies; `{WORLD}` is always fixed"))?;
     entries.iter().map(|entry| Ok(name.read(entry)?.1.row())).collect()
 }

@@ -1,10 +1,9 @@
 //! Cylindrical joint: four points of the second body projected on a line of the first (Franco &
 //! Degani 2026, Fig. 7).
 //!
-//! The line runs through `at` along the axis; its defining points lie at ±span/2. At each end two
-//! points of the second body stand at the distance `offset` from the line, along the reference
-//! and along axis × reference, the end at −span/2 first. Turning and sliding leave all four at
-//! that distance.
+//! The line runs through `at` along the axis; its defining points lie at ±span/2. At each end two points of the
+//! second body are at the distance `offset` from the line, along the reference and along axis × reference, the end at
+//! −span/2 first. Rotation and translation keep this distance.
 
 use crate::assembly::{Assembly, Lines, Points};
 use crate::closure::{Place, Turn};
@@ -72,7 +71,7 @@ mod tests {
         let model = &scene.model;
         let group = model.groups[0];
         assert_eq!((group.stars, group.arms, group.shared), (2, 2, false));
-        // The world owns the points; the reference is x, so axis × reference is −y.
+        // The points belong to the world; the reference is x, so axis × reference is −y.
         for (point, expected) in model.points[2..].iter().zip([
             [1.25, 2.0, 4.0],
             [1.0, 1.75, 4.0],

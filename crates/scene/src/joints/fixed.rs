@@ -1,8 +1,8 @@
 //! Fixed joint: three orthogonal tripods, nine TSDAs.
 //!
-//! The centres lie on the first body, at −span/2 and +span/2 on the axis and at span/2 along the
-//! reference, three points that no axis joins. Each has three points of the second body at the
-//! distance `arm` along the reference, axis × reference and the axis, or lies in a bushing with its like.
+//! The centres lie on the first body, at −span/2 and +span/2 on the axis and at span/2 along the reference, three
+//! points that are not collinear. Each is connected to three points of the second body at the distance `arm` along
+//! the reference, axis × reference and the axis, or by a bushing to the coincident point.
 
 use crate::assembly::{Assembly, Points};
 use crate::closure::{Place, Turn};

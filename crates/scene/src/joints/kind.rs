@@ -1,4 +1,4 @@
-//! What a type of joint is, and what every joint has.
+//! Types of joints, and common data of joints.
 
 use dbd_kernel::Vec3;
 
@@ -15,27 +15,27 @@ use crate::text::Table;
 pub(super) struct JointType {
     /// Its name in a scene.
     pub(super) name: &'static str,
-    /// Degrees of freedom that it holds, see [`JointInfo::holds`](crate::JointInfo::holds).
+    /// Degrees of freedom that it constrains, see [`JointInfo::holds`](crate::JointInfo::holds).
     pub(super) holds: u32,
-    /// Freedoms among these of a body that it brings as TSDAs alone.
+    /// The part of these that belongs to a body added by the realisation with TSDAs.
     pub(super) brings: u32,
     /// The keys it has besides those of every joint.
     pub(super) keys: &'static [&'static str],
-    /// What it asks of its points and triads.
+    /// Constraints on its points and triads.
     pub(super) asks: (Place, Turn),
-    /// Adds its elements to the assembly and says about which axes it turns.
+    /// Adds its elements to the assembly and returns its axes of rotation.
     pub(super) expand: fn(&Table<'_>, &Joint, &mut Assembly) -> Result<Vec<Hinge>, SceneError>,
 }
 
-/// What every joint has.
+/// Common data of joints.
 pub(super) struct Joint {
     pub(super) name: String,
     pub(super) pair: Pair,
-    /// \[m\] its place, world.
+    /// \[m\] its position, world.
     pub(super) at_w: Vec3<f64>,
-    /// The first body's axis and the second's, world; the same but for a universal joint.
+    /// The first body's axis and the second's, world; the same except for a universal joint.
     pub(super) axes: [Vec3<f64>; 2],
-    /// World, where there is one.
+    /// World, if given.
     pub(super) reference: Option<Vec3<f64>>,
     pub(super) spring: Spring,
     pub(super) realisation: Realisation,
@@ -48,13 +48,14 @@ impl Joint {
     }
 }
 
-/// What a joint is made of.
+/// Realisation of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Realisation {
     /// TSDAs with free lengths, or points on lines.
     #[default]
     Tsda,
-    /// Bushings of no length, as stiff at the pose of assembly: no root, no division in a step.
+    /// Bushings of zero length with the same stiffness at the assembled pose; a step needs no square root or
+    /// division.
     Bushing,
 }
 

@@ -1,7 +1,7 @@
 //! `[[joint]]`: each expands into the TSDA set of its type.
 //!
-//! `table => groups in the assembly, what reports say of the joint`. A type is one file with one
-//! [`JointType`]; its name, its keys and its expansion stand there and nowhere else.
+//! `table => groups in the assembly, description of the joint`. Each type is one file with one [`JointType`], which
+//! defines its name, keys and expansion.
 
 mod assemble;
 mod cylindrical;
@@ -37,16 +37,16 @@ use crate::spring;
 use crate::target::{Elements, Target};
 use crate::text::Table;
 
-/// Where a joint is, for laws about and along its axis.
+/// Geometry of a joint, for laws about and along its axis.
 pub(crate) struct JointPlace {
     /// Its type.
     pub(crate) kind: &'static str,
     pub(crate) name: String,
-    /// Its bodies, exchanged where the ground is the second one: that is a body here.
+    /// Its bodies, exchanged if the ground is the second one: the second is a body here.
     pub(crate) pair: Pair,
     /// \[m\] world.
     pub(crate) at_w: Vec3<f64>,
-    /// World; a turn or travel of the second body along it counts as that of the joint does.
+    /// World; the sign convention is that of the joint coordinate.
     pub(crate) axis_w: Vec3<f64>,
 }
 
@@ -67,8 +67,8 @@ pub(crate) const WITHIN: [(&str, &[&str]); 4] = [
     ("rate", rates::RATES),
 ];
 
-/// A joint is made at free length. One whose points miss that by more than this share of it lies
-/// so far from its bodies, or is so small, that coordinates cannot tell its points apart.
+/// Joints are created at free length. If the points deviate by more than this fraction of it, the joint is too far
+/// from its bodies or too small for the resolution of coordinates.
 const REACH: f64 = 1e-3;
 
 /// Reads and expands all joints in scene order.
@@ -87,7 +87,7 @@ pub(crate) fn read_all(
         let (groups, bodies) = (assembly.groups().len(), assembly.body_names().len());
         let (joint, hinges) = read(table, name.clone(), (kind, of_all), assembly)?;
         let spider = assembly.body_names().get(bodies).cloned();
-        // Without a body of its own a universal joint holds what its two bodies lose.
+        // Without a spider a universal joint constrains only the freedoms that its two bodies lose.
         let brought = if spider.is_some() { 0 } else { kind.brings };
         places.push(JointPlace::of(kind.name, &joint));
         infos.push(JointInfo {
@@ -105,13 +105,13 @@ pub(crate) fn read_all(
             assembly_error: 0.0,
         });
     }
-    // One pass over all elements, for a scene may have thousands of joints.
+    // One pass over all elements, because a scene may have thousands of joints.
     let extensions = assembly.largest_extensions();
     for (table, info) in tables.iter().zip(&mut infos) {
         for number in info.groups.clone() {
             let group = &assembly.groups()[number];
             let (extension, reach) = (extensions[number], assembly.size(number));
-            // A spherical joint of a bushing has no size where it needs none.
+            // A spherical joint of a bushing may have no size.
             if reach > 0.0 && extension > REACH * reach {
                 return Err(out_of_reach(table, extension, reach));
             }
@@ -126,10 +126,10 @@ pub(crate) fn read_all(
 
 fn out_of_reach(table: &Table<'_>, extension: f64, reach: f64) -> SceneError {
     let problem = format!(
-        "does not assemble: its points are {extension:e} m off where its springs are {reach:e} m long"
+        "cannot be assembled: its points are off by {extension:e} m with springs of {reach:e} m"
     );
-    let help = "a joint of a larger size, or nearer to the origin and to its bodies: coordinates \
-                have 16 digits";
+    let help = "use a larger joint, or move it nearer to the origin and to its bodies: coordinates have \
+                16 digits";
     table.refuse(&problem, help)
 }
 

@@ -1,9 +1,8 @@
-//! `rates` of `[assemble]` and velocities of bodies: what is prescribed, and the velocities of all bodies that go with
-//! it.
+//! `rates` of `[assemble]` and velocities of bodies: prescribed velocities, and consistent velocities of all bodies.
 //!
 //! `tables, joints at their assembled poses => velocities in the assembly`. A body whose table has `velocity` or
-//! `angular_velocity` keeps them; a joint's rate is that of its second body beside its first about the axis,
-//! or along it.
+//! `angular_velocity` keeps them; a joint's rate is that of its second body relative to its first, about or along the
+//! axis.
 
 use dbd_kernel::{BodyState, F64, Geometry};
 
@@ -14,19 +13,19 @@ use crate::nearest::nearest;
 use crate::shortened::shortened;
 use crate::text::{Kind, Number, Table, Text, Value};
 
-/// The keys of the rate of a joint that turns and slides.
+/// The keys of the rate of a cylindrical joint.
 pub(super) const RATES: &[&str] = &["turn", "slide"];
 
 const TURN: Number = Number::any("rad/s");
 const SLIDE: Number = Number::any("m/s");
 
-/// Something prescribed and where that stands.
+/// A prescribed velocity and its value in the scene.
 struct Source<'t> {
     prescribed: Prescribed,
     value: Value<'t>,
 }
 
-/// What is needed of a scene that is assembled.
+/// Joints of an assembled scene.
 pub(super) struct Joints<'j, 't> {
     pub(super) tables: &'j [Table<'t>],
     pub(super) closures: &'j [Closure],
@@ -34,8 +33,8 @@ pub(super) struct Joints<'j, 't> {
     pub(super) length: f64,
 }
 
-/// Gives all bodies velocities that their joints allow. The names of those whose velocities were not prescribed and
-/// are not 0.
+/// Gives all bodies velocities that their joints allow. Returns the names of those with a nonzero velocity that was
+/// not prescribed.
 pub(super) fn set(
     root: &Table<'_>,
     table: &Table<'_>,
@@ -79,7 +78,7 @@ pub(super) fn set(
     Ok(names)
 }
 
-/// What bodies prescribe by themselves.
+/// Velocities prescribed by bodies.
 fn of_bodies<'t>(root: &Table<'t>, assembly: &Assembly) -> Result<Vec<Source<'t>>, SceneError> {
     let mut sources = Vec::new();
     for (row, (table, state)) in root.list("body")?.iter().zip(assembly.states()).enumerate() {
@@ -96,7 +95,7 @@ fn of_bodies<'t>(root: &Table<'t>, assembly: &Assembly) -> Result<Vec<Source<'t>
     Ok(sources)
 }
 
-/// The values of a table by names of joints, each with the joint's row.
+/// The values of a table by names of joints, with the index of each joint.
 pub(super) fn by_joint<'t>(
     table: &Table<'t>,
     joints: &[Table<'_>],
@@ -107,10 +106,12 @@ pub(super) fn by_joint<'t>(
     let row = |(joint, value): (String, Value<'t>)| {
         let Some(row) = names.iter().position(|name| *name == joint) else {
             let help = match nearest(&joint, names.iter().map(String::as_str)) {
-                Some(meant) => format!("did you mean `{meant}`? `{key}` are those of joints"),
-                None => format!("`{key}` are those of joints by their names"),
+                Some(meant) => format!("did you mean `{meant}`? `{key}` accepts names of joints"),
+                None => format!("`{key}` accepts names of joints"),
             };
-            return Err(value.refuse_with(&format!("is no joint: \"{}\"", shortened(&joint)), help));
+            return Err(
+                value.refuse_with(&format!("is not a joint: \"{}\"", shortened(&joint)), help)
+            );
         };
         Ok((row, value))
     };
@@ -123,7 +124,7 @@ fn of_joints<'t>(
     joints: &Joints<'_, '_>,
     sources: &mut Vec<Source<'t>>,
 ) -> Result<(), SceneError> {
-    let table = value.table("{ JOINT = rate }: rad/s about a joint's axis or m/s along it")?;
+    let table = value.table("{ JOINT = rate }, in rad/s about a joint's axis or m/s along it")?;
     for (row, value) in by_joint(&table, joints.tables, "rates")? {
         let kind = super::kind(&joints.tables[row])?.name;
         let mut push = |prescribed, value| sources.push(Source { prescribed, value });
@@ -151,14 +152,13 @@ fn of_joints<'t>(
                 }
             }
             "cylindrical" => {
-                let help = "a cylindrical joint turns and slides: { turn = rad/s, slide = m/s }, or \
-                            one of the two";
-                return Err(value.refuse_with("does not say which rate it is", help));
+                let help = "give { turn = rad/s, slide = m/s } or one of the two";
+                return Err(value.refuse_with("is ambiguous for a cylindrical joint", help));
             }
             kind => {
                 let problem = format!("is the rate of a {kind} joint");
-                let help = "rates are those of revolute, cylindrical and translational joints; a \
-                            body's `velocity` and `angular_velocity` prescribe other motions";
+                let help = "give rates of revolute, cylindrical and translational joints only; for other \
+                            motions give a body's `velocity` and `angular_velocity`";
                 return Err(value.refuse_with(&problem, help));
             }
         }
@@ -166,35 +166,43 @@ fn of_joints<'t>(
     Ok(())
 }
 
-/// The refusal of what is prescribed and cannot be.
+/// The error of a prescribed value that cannot be satisfied.
 fn refuse(found: &Contradiction, sources: &[Source<'_>]) -> SceneError {
     let Source { prescribed, value } = &sources[found.row];
     let near = short(found.nearest);
     let problem = match (found.is_held, prescribed) {
-        (true, _) => "is a motion that the joints do not leave".to_owned(),
-        (_, Prescribed::Turn(..)) => format!("does not go with the others: {near} rad/s would"),
-        (_, Prescribed::Slide(..)) => format!("does not go with the others: {near} m/s would"),
+        (true, _) => "is a motion that the joints prevent".to_owned(),
+        (_, Prescribed::Turn(..)) => {
+            format!("is inconsistent with the other velocities: {near} rad/s is consistent")
+        }
+        (_, Prescribed::Slide(..)) => {
+            format!("is inconsistent with the other velocities: {near} m/s is consistent")
+        }
         (_, Prescribed::Velocity(..)) => {
-            format!("does not go with the joints and the others: it is off by {near} m/s")
+            format!(
+                "is inconsistent with the joints and the other velocities: it is off by {near} m/s"
+            )
         }
         (_, Prescribed::Spin(..)) => {
-            format!("does not go with the joints and the others: it is off by {near} rad/s")
+            format!(
+                "is inconsistent with the joints and the other velocities: it is off by {near} rad/s"
+            )
         }
     };
     let help = match found.is_held {
         true => {
-            "the loops of joints hold that: another joint's rate, or none; `host-sim check` says \
-                 what is free"
+            "give the rate of another joint or none: loops of joints prevent this motion; \
+                 `host-sim check` lists the free motions"
         }
         false => {
-            "with [assemble] velocities agree with the joints: as many as there are freedoms may be \
-             prescribed, by `rates` and by the bodies' own; the other bodies need none"
+            "with [assemble], give at most as many velocities as there are degrees of freedom, by \
+             `rates` or for bodies; the others follow from the joints"
         }
     };
     value.refuse_with(&problem, help)
 }
 
-/// With four digits.
+/// Formats with four digits.
 fn short(value: f64) -> String {
     let text = format!("{value:.3e}");
     text.parse::<f64>().map_or(text, |rounded| match rounded.abs() {

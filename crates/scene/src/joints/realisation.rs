@@ -1,7 +1,7 @@
-//! What a joint is made of: TSDAs, or bushings without a length.
+//! Realisation of a joint: TSDAs, or bushings of zero length.
 //!
-//! `table => realisation`. The joint's own key goes before `[defaults]`, these before the scene's
-//! `realisation`, which is that of every joint that can have it.
+//! `table => realisation`. The joint's own key takes precedence over `[defaults]`, and these over the scene's
+//! `realisation`, which applies to every joint that supports it.
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
@@ -17,23 +17,23 @@ fn given(table: &Table<'_>) -> Result<Option<Realisation>, SceneError> {
     Ok(table.optional(KEY, Choice(&names))?.map(|index| Realisation::ALL[index]))
 }
 
-/// The realisation of all joints of a scene that can have it.
+/// The realisation of all joints of a scene that support it.
 pub(super) fn of_all(root: &Table<'_>) -> Result<Realisation, SceneError> {
     Ok(given(root)?.unwrap_or_default())
 }
 
-/// Refuses the key in the table of a joint whose type has but one.
+/// Rejects the key for a joint type with a single realisation.
 pub(super) fn check(table: &Table<'_>, kind: &JointType) -> Result<(), SceneError> {
     if kind.keys.contains(&KEY) || !table.gives(KEY) {
         return Ok(());
     }
-    let problem = format!("is of a {} joint, which has but one", kind.name);
-    let help = "leave it out: its points on lines slide, a bushing would hold them; `revolute`, \
-                `spherical`, `universal` and `fixed` joints have realisations";
+    let problem = format!("cannot be set: a {} joint has a single realisation", kind.name);
+    let help = "remove it: its points slide along lines, which a bushing would prevent; `revolute`, \
+                `spherical`, `universal` and `fixed` joints have several realisations";
     Err(table.refuse_value(KEY, &problem, help))
 }
 
-/// The realisation of a joint, `of_all` where nothing else says which.
+/// The realisation of a joint, `of_all` by default.
 pub(super) fn read(
     table: &Table<'_>,
     kind: &JointType,
@@ -46,16 +46,16 @@ pub(super) fn read(
     let own = given(table)?;
     if spring.clearance > 0.0 {
         if own == Some(Realisation::Bushing) {
-            let help = "`clearance = 0`, or `realisation = \"tsda\"` for this joint: the points of a \
-                        bushing lie in each other, nothing is between them";
-            return Err(table.refuse_value(KEY, "is that of a joint with a clearance", help));
+            let help = "use `clearance = 0`, or `realisation = \"tsda\"` for this joint: the points of a \
+                        bushing coincide and have no clearance";
+            return Err(table.refuse_value(KEY, "is not compatible with a clearance", help));
         }
         return Ok(Realisation::Tsda);
     }
     Ok(own.unwrap_or(of_all))
 }
 
-/// The places of bushings of a joint: points of both bodies that are one at the pose of assembly.
+/// The points of the bushings of a joint on both bodies, coincident at the assembled pose.
 pub(super) fn ends<const N: usize>(
     joint: &super::Joint,
     places: [dbd_kernel::Vec3<f64>; N],

@@ -1,10 +1,10 @@
 //! Revolute joint: two axis points, three ring points, six TSDAs (Franco & Degani 2026, Fig. 5).
 //!
-//! The axis points at ±span/2 on the first body, the ring points in the mid plane on the second,
-//! at azimuth 120°·j from the reference; each axis point is joined to each ring point, the one
-//! at −span/2 first. Free length √((span/2)² + ring²). With the default ring radius span/√2 the
-//! three lines of an end are orthogonal, its stiffness is k·I. As a bushing its bodies share a
-//! point and an axis; with another ring that is stiffer or softer along the axis than across it.
+//! The axis points at ±span/2 on the first body, the ring points in the mid plane on the second, at azimuth 120°·j
+//! from the reference; each axis point is joined to each ring point, the one at −span/2 first. Free length
+//! √((span/2)² + ring²). With the default ring radius span/√2 the three lines of an end are orthogonal, its stiffness
+//! is k·I. As a bushing it connects a point and an axis of both bodies; with another ring its axial and radial
+//! stiffness differ.
 
 use core::f64::consts::SQRT_2;
 
@@ -39,7 +39,7 @@ pub(super) const TYPE: JointType = JointType {
     expand,
 };
 
-/// An end that is as nearly alike in all directions has one stiffness.
+/// Tolerance within which an end counts as isotropic.
 const ISOTROPIC: f64 = 1e-9;
 
 fn expand(
@@ -57,7 +57,7 @@ fn expand(
     Ok(vec![assembly.hinge(&joint.pair, triad.axis)])
 }
 
-/// How large a revolute is.
+/// Size of a revolute joint.
 #[derive(Clone, Copy)]
 pub(super) struct Size {
     span: f64,
@@ -83,19 +83,19 @@ impl Size {
         libm::sqrt(half * half + ring * ring)
     }
 
-    /// Whether an end is as stiff along the axis as across it, as with the default ring.
+    /// Whether an end has equal axial and radial stiffness, as with the default ring.
     pub(super) fn is_isotropic(self) -> bool {
         (self.ratio() - 1.0).abs() < ISOTROPIC
     }
 
-    /// The stiffness of an end along the axis over that across it.
+    /// Axial over radial stiffness of an end.
     fn ratio(self) -> f64 {
         let part = self.span / self.ring;
         0.5 * part * part
     }
 }
 
-/// Adds the group of a revolute between two bodies at the place of a joint.
+/// Adds the group of a revolute joint between two bodies at the position of a joint.
 pub(super) fn add(
     pair: &Pair,
     joint: &Joint,
@@ -114,14 +114,14 @@ pub(super) fn add(
     assembly.add_tsdas(pair, points, free_length, joint.spring)
 }
 
-/// Adds the revolute as a bushing: as stiff as the three TSDAs of each end, at the end.
+/// Adds the revolute joint as a bushing with the stiffness of the three TSDAs of each end, at that end.
 fn add_bushings(
     joint: &Joint,
     axis: Vec3<f64>,
     size: Size,
     assembly: &mut Assembly,
 ) -> Result<(), Defect> {
-    // Of both ends k·Σu·u over their lines: across the axis 3r²/L², along it 3s²/(2L²).
+    // k·Σu·u over the lines of both ends: radially 3r²/L², axially 3s²/(2L²).
     let part = size.ring / size.length();
     let (across, ratio) =
         if size.is_isotropic() { (2.0, 1.0) } else { (3.0 * part * part, size.ratio()) };
@@ -154,7 +154,7 @@ mod tests {
     fn the_ring_may_be_given_and_defaults_to_orthogonal_lines() {
         assert_eq!(free_length("ring = 0.04"), libm::sqrt(0.03 * 0.03 + 0.04 * 0.04));
         assert!((free_length("") - 0.5 * libm::sqrt(3.0) * 0.06).abs() < 1e-16);
-        // The reference turns the ring and changes no length.
+        // The reference rotates the ring and changes no length.
         assert_eq!(free_length("reference = [0, 0, 1]"), free_length(""));
     }
 
@@ -165,7 +165,7 @@ mod tests {
              at = [0, 0, 0]\naxis = [0, 3, 0]\nreference = [1, 5, 1]\nstiffness = 1e5\n\
              span = 2\nring = 1",
         );
-        // The world is the second body here and owns the ring; y is taken out of the reference.
+        // The world is the second body here and has the ring points; y is removed from the reference.
         let [x, y, z] = scene.model.points[2].to_f64();
         let half = core::f64::consts::FRAC_1_SQRT_2;
         assert!((x - half).abs() < 1e-15 && y.abs() < 1e-15 && (z - half).abs() < 1e-15);

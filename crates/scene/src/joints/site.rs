@@ -1,7 +1,7 @@
-//! Where a joint lies on its two bodies.
+//! Position of a joint on its two bodies.
 //!
-//! `table => place and axes of each half, world, at the poses as they are given => where the joint is`.
-//! What is given of a half goes with its body where that was moved.
+//! `table => position and axes of each half, world, at the given poses => position of the joint`. The data of a half
+//! move with its body.
 
 use dbd_kernel::Vec3;
 
@@ -18,17 +18,17 @@ use crate::points::{Heading, Place as NamedPlace};
 use crate::spring::Spring;
 use crate::text::{Kind, Table, Value};
 
-/// \[m, rad\] by which a joint may be open that nothing closes: what is written has 9 digits at least.
+/// \[m, rad\] largest gap of a joint without [assemble]: the scene gives at least 9 digits.
 const CLOSED: f64 = 1e-9;
 
-/// A joint's halves, world, at the poses as they are given.
+/// A joint's halves, world, at the given poses.
 pub(super) struct Site {
     pub(super) pair: Pair,
     asks: (Place, Turn),
     at: [Vec3<f64>; 2],
     axes: [Vec3<f64>; 2],
     references: Option<[Vec3<f64>; 2]>,
-    /// Whether any of these that have to be the same differ.
+    /// Whether the halves give different values where they must agree.
     is_double: bool,
 }
 
@@ -57,13 +57,13 @@ impl Site {
         Ok(Self { pair, asks: kind.asks, at, axes, references, is_double })
     }
 
-    /// What has to be closed.
+    /// The closure of the joint.
     pub(super) fn closure(&self, assembly: &Assembly) -> Closure {
         let ends = [self.pair.a, self.pair.b];
         let references = self.references.unwrap_or_else(|| self.default_references());
         let triads = [0, 1].map(|end| {
             let (axis, reference) = (self.axes[end], references[end]);
-            // A reference along the axis is refused where the joint is expanded.
+            // A reference along the axis is rejected when the joint is expanded.
             let across = normals(axis, reference).or_else(|| normals(axis, least_aligned(axis)));
             let [e1, e2] = across.unwrap_or([axis; 2]);
             let triad = [e1, e2, axis].map(|e| assembly.vector_in(ends[end], e));
@@ -73,8 +73,8 @@ impl Site {
         Closure { ends, place: self.asks.0, turn: self.asks.1, points, triads }
     }
 
-    /// For the first half the axis least aligned, for the second what the shortest turn from axis to
-    /// axis makes of it.
+    /// For the first half the world axis least aligned; for the second the same rotated by the shortest rotation from
+    /// axis to axis.
     fn default_references(&self) -> [Vec3<f64>; 2] {
         let [n, m] = self.axes;
         let first = least_aligned(n);
@@ -82,13 +82,13 @@ impl Site {
         if n == m || cosine < -1.0 + 1e-12 {
             return [first; 2];
         }
-        // Rodrigues for the turn n × m.
+        // Rodrigues formula for the rotation n × m.
         let turn = n.cross(m);
         let second = first * cosine + turn.cross(first) + turn * (turn.dot(first) / (1.0 + cosine));
         [first, second]
     }
 
-    /// The joint where its bodies are now. It is open where nothing has closed it.
+    /// The joint at the present poses of its bodies; it is open if it has not been closed.
     pub(super) fn joint(
         self,
         table: &Table<'_>,
@@ -106,7 +106,7 @@ impl Site {
             assembly.carried_direction(a, self.axes[0]),
             assembly.carried_direction(second, self.axes[usize::from(second == b)]),
         ];
-        // What slides along the line has the place of the second body, to which its points belong.
+        // A sliding joint is at the position of the second body, to which its points belong.
         let at_w =
             if self.asks.0 == Place::Line && p != q { p + axes[0] * axes[0].dot(q - p) } else { p };
         let reference = self.references.map(|[first, _]| assembly.carried_direction(a, first));
@@ -115,7 +115,7 @@ impl Site {
         Ok(Joint { name, pair: self.pair, at_w, axes, reference, spring, realisation })
     }
 
-    /// What the long form has: one place and one direction each, where the bodies are now.
+    /// Values of the long form: one position and one direction each, at the present poses.
     fn resolve(
         &self,
         table: &Table<'_>,
@@ -148,8 +148,8 @@ impl Site {
             return Ok(());
         }
         let problem = format!("is open by {} at the given poses", shown(opening));
-        let help = "a table [assemble] moves the bodies until all joints are closed; or give poses \
-                    at which the halves meet";
+        let help = "add a table [assemble], which moves the bodies until all joints are closed, or \
+                    give poses at which the halves meet";
         Err(table.refuse(&problem, help))
     }
 }
@@ -175,7 +175,7 @@ pub(super) fn shown(Opening { distance, angle }: Opening) -> String {
     }
 }
 
-/// What both halves of a joint have, or `{ first, second }`.
+/// A common value of both halves of a joint, or `{ first, second }`.
 #[derive(Clone, Copy)]
 struct Halves<K>([K; 2]);
 
@@ -184,7 +184,7 @@ impl<K: Kind> Kind for Halves<K> {
 
     fn expected(&self) -> String {
         let one = self.0[0].expected();
-        format!("{one}, or {{ first = …, second = … }} with one of each body")
+        format!("{one}, or {{ first = …, second = … }} with one for each body")
     }
 
     fn read(&self, value: &Value<'_>) -> Result<[K::Output; 2], SceneError> {
@@ -205,11 +205,10 @@ impl<K: Kind> Kind for Halves<K> {
     }
 }
 
-/// The keys of what is given for each body by itself.
+/// The keys of a value given for each body.
 pub(super) const HALVES: &[&str] = &["first", "second"];
 
-/// Where a half of a joint lies, world at the given poses: a point that the body has as an end of its own
-/// where that is.
+/// Position of a half of a joint, world at the given poses: for a named end of the body the position of that end.
 #[derive(Clone, Copy)]
 struct PlaceOfHalf<'a> {
     assembly: &'a Assembly,
@@ -224,7 +223,7 @@ impl Kind for PlaceOfHalf<'_> {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
-        /// \[m\] an end that is this near to its point is there.
+        /// \[m\] an end this near to its point coincides with it.
         const THERE: f64 = 1e-12;
         let point = NamedPlace(self.assembly).read(value)?;
         let end = value.get().as_str().and_then(|name| self.assembly.end(self.body, name));

@@ -1,8 +1,7 @@
 //! Spherical joint: one orthogonal tripod.
 //!
-//! The centre `at` on the first body, three points of the second at the distance `arm` along the
-//! world's x, y and z at the initial pose. Its stiffness about the centre is k·I, as that
-//! of one bushing there.
+//! The centre `at` on the first body, three points of the second at the distance `arm` along the world's x, y and z
+//! at the initial pose. Its translational stiffness at the centre is k·I, as that of one bushing there.
 
 use dbd_kernel::Vec3;
 

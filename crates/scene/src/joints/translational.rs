@@ -1,12 +1,11 @@
 //! Translational joint: eight points of the second body projected on two parallel lines of the
 //! first (Franco & Degani 2026, Fig. 8).
 //!
-//! The lines run along the axis, `gauge` apart along the reference, with `at` half way between
-//! them; their defining points lie at ±span/2. At each end of each line two points of the second
-//! body stand at the distance `offset`, along the reference and along axis × reference; with
-//! outward offsets the line at −gauge/2 has its first point along the reference's opposite, so
-//! that the joint is its own mirror image. Order: the end at −span/2, there the line at −gauge/2,
-//! first. Two lines are what stops the turning.
+//! The lines run along the axis, `gauge` apart along the reference, with `at` half way between them; their defining
+//! points lie at ±span/2. At each end of each line two points of the second body are at the distance `offset`, along
+//! the reference and along axis × reference; with outward offsets the line at −gauge/2 has its first point along the
+//! reference's opposite, so that the joint is its own mirror image. Order: the end at −span/2, there the line at
+//! −gauge/2, first. The two lines prevent rotation about the axis.
 
 use crate::assembly::{Assembly, Lines, Points};
 use crate::closure::{Place, Turn};

@@ -1,4 +1,4 @@
-//! The axes of a joint: `axis` and what `reference` makes normal to it.
+//! The axes of a joint: `axis` and the normals defined by `reference`.
 //!
 //! `table => (e1, e2, axis)`, world, right-handed: e1 is the reference made normal to the axis,
 //! e2 = axis × e1, the binormal. The reference defaults to the world axis least aligned with the
@@ -21,7 +21,7 @@ pub(super) struct Triad {
     pub(super) axis: Vec3<f64>,
 }
 
-/// The triad of an axis and a reference, which the table has where there is one.
+/// The triad of an axis and a reference, which belongs to the table if given.
 pub(super) fn about(
     table: &Table<'_>,
     axis: Vec3<f64>,
@@ -29,7 +29,7 @@ pub(super) fn about(
 ) -> Result<Triad, SceneError> {
     let reference = reference.unwrap_or(least_aligned(axis));
     let [e1, e2] = normals(axis, reference).ok_or_else(|| {
-        let help = "a direction across the axis, e.g. one normal to it";
+        let help = "give a direction that is not parallel to the axis, such as one normal to it";
         table.refuse_value("reference", "is parallel to the axis", help)
     })?;
     Ok(Triad { e1, e2, axis })

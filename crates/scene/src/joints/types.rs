@@ -1,6 +1,6 @@
 //! The types of joints, by their names in a scene.
 //!
-//! `type => what it holds, its keys`.
+//! `type => constraints, keys`.
 
 use crate::closure::{Place, Turn};
 use crate::error::SceneError;
@@ -12,7 +12,7 @@ use crate::shortened::shortened;
 use crate::spring;
 use crate::text::{Choice, Kind as _, Table};
 
-/// In the order in which messages name them.
+/// In the order of messages.
 pub(super) static TYPES: [JointType; 6] = [
     spherical::TYPE,
     revolute::TYPE,
@@ -37,13 +37,13 @@ pub(crate) fn types() -> impl Iterator<Item = (&'static str, Vec<&'static str>)>
     TYPES.iter().map(|kind| (kind.name, [KEYS, spring::KEYS, kind.keys].concat()))
 }
 
-/// What a joint of a type holds of its points and triads.
+/// Constraints of a joint type on its points and triads.
 pub(crate) fn holds(kind: &str) -> (Place, Turn) {
     let of_type = TYPES.iter().find(|of_type| of_type.name == kind);
     of_type.map_or((Place::Point, Turn::All), |of_type| of_type.asks)
 }
 
-/// What other programs and people call the types.
+/// Names of the types in other programs.
 const OTHER_NAMES: [(&str, &[&str]); 6] = [
     ("spherical", &["ball", "ball_and_socket", "ball_socket", "socket", "point", "globular"]),
     (
@@ -59,7 +59,7 @@ const OTHER_NAMES: [(&str, &[&str]); 6] = [
     ("fixed", &["weld", "welded", "rigid", "lock", "locked", "clamp", "clamped", "bolted"]),
 ];
 
-/// The type, which decides what further keys there may be.
+/// The type, which determines the other keys.
 pub(super) fn kind(table: &Table<'_>) -> Result<&'static JointType, SceneError> {
     if !table.has("type") {
         let mut keys = vec![KEYS, spring::KEYS];
@@ -79,12 +79,12 @@ pub(super) fn kind(table: &Table<'_>) -> Result<&'static JointType, SceneError> 
     Ok(kind)
 }
 
-/// Lets a table have the keys of its type: defaults of other types are not its.
+/// Accepts only the keys of its type: defaults of other types do not apply.
 pub(crate) fn allow(table: &Table<'_>) -> Result<(), SceneError> {
     table.only(&[KEYS, kind(table)?.keys, spring::KEYS])
 }
 
-/// The type that goes by another name, with or without "joint" behind it.
+/// The type for an alternative name, with or without the suffix "joint".
 fn meant_by(word: &str) -> Option<&'static str> {
     let word = word.to_lowercase().replace([' ', '-'], "_").replace('\'', "");
     let word = word.strip_suffix("joint").unwrap_or(&word).trim_end_matches('_');

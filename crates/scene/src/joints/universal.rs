@@ -1,9 +1,9 @@
 //! Universal joint: a spider between two revolutes (Franco & Degani 2026, section 2.4.2).
 //!
-//! The spider is a body `JOINT.spider` at `at` with the axes (a1, a2, a1 × a2), moving with the
-//! first body or, where [assemble] sets velocities, with both. A revolute about a1 joins it to the first body, one about a2 to the second. a2 is
-//! made normal to a1 to the last bit. As a bushing it has no spider: its two bodies share a point, and
-//! their axes are held perpendicular.
+//! The spider is a body `JOINT.spider` at `at` with the axes (a1, a2, a1 × a2), moving with the first body or, where
+//! [assemble] sets velocities, with both. A revolute about a1 joins it to the first body, one about a2 to the second.
+//! a2 is made normal to a1 to the last bit. As a bushing it has no spider: springs connect a point of its two bodies
+//! and keep their axes perpendicular.
 
 use dbd_kernel::{BodyState, Vec3};
 
@@ -30,7 +30,7 @@ pub(super) const TYPE: JointType = JointType {
     expand,
 };
 
-/// Cosine of the angle between axes that still count as orthogonal.
+/// Largest cosine of the angle between axes that count as orthogonal.
 const ORTHOGONAL: f64 = 1e-6;
 
 fn expand(
@@ -50,15 +50,14 @@ fn expand(
 
     let name = format!("{}.spider", joint.name);
     if assembly.body(&name).is_some() {
-        let problem = format!("makes a body `{name}`, which the scene has already");
+        let problem = format!("creates a body `{name}`, which already exists");
         let help = "the spider is named after its joint; rename the joint or the body";
         return Err(table.refuse_key("spider", &problem, help));
     }
     let Pair { a, b, names } = joint.pair.clone();
     let (velocity, mut spin_w) = assembly.motion(a, joint.at_w);
     if assembly.is_assembled() {
-        // Velocities agree with the joints: what the bodies turn beside each other about the first axis the
-        // spider does.
+        // Velocities agree with the joints: the relative rotation about the first axis is that of the spider.
         let (_, other_w) = assembly.motion(b, joint.at_w);
         spin_w = spin_w + a1 * a1.dot(other_w - spin_w);
     }
@@ -82,8 +81,8 @@ fn expand(
     Ok(hinges.collect())
 }
 
-/// Adds the joint without a spider: a point bushing half as stiff as a revolute, and the axes held
-/// perpendicular by it at half a span.
+/// Adds the joint without a spider: a point bushing with half the stiffness of a revolute joint, and the same
+/// stiffness at half a span that keeps the axes perpendicular.
 fn bushing(
     table: &Table<'_>,
     joint: &Joint,
@@ -91,11 +90,11 @@ fn bushing(
     size: Size,
     assembly: &mut Assembly,
 ) -> Result<Vec<Hinge>, SceneError> {
-    // Read for what is wrong with it, too: a bushing has no use for it.
+    // A bushing does not use it; it is read only to report errors.
     let spider = table.optional("spider", Spider)?;
     if !size.is_isotropic() {
-        let problem = "makes a joint that no bushing between its two bodies is as stiff as";
-        let help = "without `ring` it is span/√2, and the joint as stiff in every direction; or \
+        let problem = "leads to a stiffness that a bushing cannot represent";
+        let help = "remove `ring`, which is then span/√2 for equal stiffness in every direction, or use \
                     `realisation = \"tsda\"` for this joint";
         return Err(table.refuse_value("ring", problem, help));
     }
@@ -108,7 +107,7 @@ fn bushing(
     if let Some((body, _)) = spider {
         assembly.leave_out(body.mass);
     }
-    // The second axis is of the second body: about it turns the first, the other way.
+    // The second axis belongs to the second body, so the angle about it is that of the first body, reversed.
     Ok(vec![assembly.hinge(&joint.pair, a1), assembly.hinge(&joint.pair.reversed(), -a2)])
 }
 
@@ -147,7 +146,7 @@ impl Kind for Axes<'_> {
 /// The keys of `spider`.
 pub(super) const SPIDER: &[&str] = &["mass", "inertia", "angular_velocity"];
 
-/// The spider's mass and inertia, and \[rad/s\] its angular velocity about its own axes where that is given.
+/// The spider's mass and inertia, and \[rad/s\] its angular velocity about its own axes, if given.
 struct Spider;
 
 impl Kind for Spider {
@@ -214,7 +213,7 @@ mod tests {
         near(x, [0.0, 0.0, 1.0]);
         near(y, [half, half, 0.0]);
         near(z, [-half, half, 0.0]);
-        // The hand is at (1, 0, 0); its spin of 3 rad/s is about its own z.
+        // The hand is at (1, 0, 0); its angular velocity of 3 rad/s is about its own z.
         let body = &model.initial[1];
         let frame = F64::frame(&body.position, &body.orientation);
         let spin = F64::to_world(&frame, Vec3::new(0.0, 0.0, 3.0));

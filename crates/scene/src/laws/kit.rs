@@ -1,7 +1,7 @@
-//! What every law must keep: tests for laws of one's own.
+//! Conformance tests for custom laws.
 //!
-//! `(law, how far and how fast bodies move) => the first rule that it breaks`. Random poses in double precision from a
-//! seed, so a failure is the same on every machine.
+//! `(law, ranges of the motion) => the first rule that it breaks`. The poses are random, in double precision, from a
+//! fixed seed: a failure is the same on every machine.
 
 use dbd_kernel::attitude::Attitude as _;
 use dbd_kernel::laws::{Instant, Interaction, Law, Record, Seen};
@@ -10,16 +10,16 @@ use dbd_kernel::{BodyState, F64, Geometry as _, Quaternion, Vec3};
 
 use crate::laws::Listed;
 
-/// The motion in which a law is looked at.
+/// The motion in which a law is tested.
 #[derive(Clone, Copy, Debug)]
 pub struct Poses {
-    /// How many poses.
+    /// Number of poses.
     pub count: usize,
-    /// \[m\] how far B's point is from A's, each way: enough to meet all that the law does.
+    /// \[m\] largest distance of B's point from A's in each direction; large enough to cover every regime of the law.
     pub reach: f64,
-    /// \[rad\] how far B is turned in A, each way.
+    /// \[rad\] largest rotation of B in A in each direction.
     pub turn: f64,
-    /// \[m/s, rad/s\] how fast the bodies are.
+    /// \[m/s, rad/s\] largest speed of the bodies.
     pub speed: f64,
 }
 
@@ -29,7 +29,7 @@ impl Default for Poses {
     }
 }
 
-/// How far one difference quotient may be from another, beside the largest.
+/// Largest allowed difference of two difference quotients, relative to the largest.
 const NEAR: f64 = 1e-4;
 
 /// A difference of coordinates \[m, rad\].
@@ -38,9 +38,9 @@ const STEP: f64 = 1e-6;
 type State = [BodyState<F64>; 2];
 type Twelve = [f64; 12];
 
-/// Holds a law against what it promises, between two bodies: action equals reaction and angular momentum is kept,
-/// force is minus the gradient of the energy, its tangent is at least what its force changes by, dampers towards rest
-/// take power, settling twice is settling once.
+/// Tests a law between two bodies: action equals reaction and angular momentum is conserved, force is minus the
+/// gradient of the energy, the tangent bounds the change of the force, dampers dissipate power, and settling is
+/// idempotent.
 ///
 /// `law` is a row of it between `BodyIndex(0)` and `BodyIndex(1)`, with points near the origins of both.
 ///
@@ -53,22 +53,22 @@ pub fn hold<L: Law>(law: &L, poses: Poses) -> Result<(), String> {
         let state = random.state(poses);
         met |= at(law, &state).map_err(|why| format!("pose {number}: {why}"))?;
     }
-    if met { Ok(()) } else { Err("in no pose does the law do anything: another `reach`".into()) }
+    if met { Ok(()) } else { Err("the law has no effect at any pose: use another `reach`".into()) }
 }
 
-/// The rules at a pose; whether the law does anything there.
+/// Checks the rules at a pose; returns whether the law has an effect there.
 fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
     let frames = frames(state);
     let instant = Instant { frames: &frames, bodies: state, signals: &[] };
     let Some(seen) = instant.seen(law.bodies()) else {
-        return Err("its bodies are not 0 and 1".into());
+        return Err("the law's bodies are not 0 and 1".into());
     };
     let mut memory = <L as Interaction<F64>>::State::default();
     let unsettled = law.energy(&seen, &memory);
     law.settle(&seen, &mut memory);
     let lost = unsettled - law.energy(&seen, &memory);
     if lost.abs() > 1e-9 * unsettled.abs() && !<L as Interaction<F64>>::SLIPS {
-        return Err(format!("settling loses {lost} J: such a law has SLIPS"));
+        return Err(format!("settling loses {lost} J: such a law must set SLIPS"));
     }
     let words = |memory: &<L as Interaction<F64>>::State| {
         let mut list = Listed::default();
@@ -78,7 +78,7 @@ fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
     let once = words(&memory);
     law.settle(&seen, &mut memory);
     if words(&memory) != once {
-        return Err(format!("settling twice is not settling once: {once:?}, {:?}", words(&memory)));
+        return Err(format!("settling is not idempotent: {once:?}, {:?}", words(&memory)));
     }
     let Some(record) = law.record(&seen, &memory) else { return Ok(false) };
     let forces = generalised(&record);
@@ -95,19 +95,19 @@ fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
         let tension = damper.tension(rate);
         acts |= tension != 0.0;
         if damper.rate == 0.0 && tension * rate < 0.0 {
-            drawn = Err(format!("a damper gives {} W", -tension * rate));
+            drawn = Err(format!("a damper supplies {} W", -tension * rate));
         }
         let pull = momentum(state, &seen.pull(&damper.direction, 1.0));
         drawn = drawn.clone().and(pull.map_err(|why| format!("damper {dampers}: {why}")));
     });
     drawn?;
     if dampers > <<L as Interaction<F64>>::Dampers as dbd_kernel::laws::Several>::COUNT {
-        return Err(format!("it visits {dampers} dampers, more than it says it has"));
+        return Err(format!("the law visits {dampers} dampers, more than it declares"));
     }
     Ok(acts)
 }
 
-/// A record keeps angular momentum.
+/// The forces conserve angular momentum.
 fn momentum(state: &State, record: &Record<f64>) -> Result<(), String> {
     let size = generalised(record).iter().fold(0.0, |most: f64, force| most.max(force.abs()));
     let whole =
@@ -115,12 +115,12 @@ fn momentum(state: &State, record: &Record<f64>) -> Result<(), String> {
     let left = whole(&state[0], record.torque_a) - whole(&state[1], record.torque_b);
     let lever = state.iter().fold(1.0, |most: f64, body| most.max(length(body.position)));
     if length(left) > 1e-9 * size * lever {
-        return Err(format!("angular momentum is not kept: {left:?} N·m of {size} N"));
+        return Err(format!("angular momentum is not conserved: {left:?} N·m of {size} N"));
     }
     Ok(())
 }
 
-/// Force is minus the gradient of the energy, where that has one.
+/// Force is minus the gradient of the energy, where the gradient exists.
 fn gradient<L: Law>(
     law: &L,
     state: &State,
@@ -139,11 +139,12 @@ fn gradient<L: Law>(
         let (wide, narrow) = (slope(2.0 * STEP), slope(STEP));
         let most = size.max(narrow.abs());
         let is_smooth = (wide - narrow).abs() <= NEAR * most;
-        // Below what an energy's last digit makes of a difference.
+        // Error of the difference due to the last digit of the energy.
         let rounding = 1e-15 * energy(&way, 0.0).abs() / STEP;
         if is_smooth && (narrow + forces[freedom]).abs() > NEAR * most + 10.0 * rounding {
             return Err(format!(
-                "force is not minus the gradient of the energy: {} and {} along freedom {freedom}",
+                "force is not minus the energy gradient: {} and {} along degree of freedom \
+                 {freedom}",
                 forces[freedom], -narrow
             ));
         }
@@ -151,7 +152,7 @@ fn gradient<L: Law>(
     Ok(())
 }
 
-/// No move of one body changes its force by more than the tangent says.
+/// No displacement of one body changes its force by more than the tangent.
 fn tangent<L: Law>(
     law: &L,
     state: &State,
@@ -191,7 +192,8 @@ fn tangent<L: Law>(
             most += turned[body] * about.dot(about);
             if found > most * (1.0 + NEAR) + 1e-6 * most.abs().max(found.abs()) {
                 return Err(format!(
-                    "the tangent is too small: a move of body {body} meets {found} N/m, it says {most}"
+                    "the tangent is too small: moving body {body} gives {found} N/m, the law \
+                     declares {most}"
                 ));
             }
         }
@@ -199,7 +201,7 @@ fn tangent<L: Law>(
     Ok(())
 }
 
-/// What a law shows at a pose.
+/// Evaluates a law at a pose.
 fn look<L: Law, A>(law: &L, state: &State, look: impl FnOnce(&Seen<'_, F64>) -> A) -> A
 where
     A: Default,
@@ -223,7 +225,7 @@ fn generalised(record: &Record<f64>) -> Twelve {
     all
 }
 
-/// The bodies moved along a way, turns about the world's axes.
+/// The bodies moved along a direction in configuration space; rotations are about the world's axes.
 fn moved(state: &State, way: &Twelve, by: f64) -> State {
     let mut moved = *state;
     for (body, way) in moved.iter_mut().zip(way.chunks(6)) {
@@ -233,7 +235,7 @@ fn moved(state: &State, way: &Twelve, by: f64) -> State {
     moved
 }
 
-/// An orientation turned about an axis of the world by its length \[rad\].
+/// An orientation rotated about a world axis by the length of the vector \[rad\].
 fn turned(q: &Quaternion<f64>, turn: Vec3<f64>) -> Quaternion<f64> {
     let angle = length(turn);
     let (sin, cos) = libm::sincos(angle / 2.0);

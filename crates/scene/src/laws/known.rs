@@ -9,21 +9,21 @@ use crate::laws::source::{Source, SourceRows};
 pub struct KnownLaw {
     /// The name in scenes.
     pub name: &'static str,
-    /// What it is, in a line.
+    /// One-line description.
     pub about: &'static str,
     /// Its constants.
     pub fields: &'static [Field],
-    /// What it shows.
+    /// The quantities that it reports.
     pub quantities: &'static [laws::Quantity],
-    /// The path of its type in Rust, as exported source has it.
+    /// The path of its Rust type, used in exported source.
     pub path: String,
-    /// The name and the folder of the package that declares it.
+    /// Name and folder of the package that declares it.
     pub package: [&'static str; 2],
     pub(crate) table: fn(String) -> Box<dyn SourceRows>,
 }
 
 impl KnownLaw {
-    /// Whether it is a law between two bodies, as a table `interaction` has it.
+    /// Whether it is a law between two bodies, for a table `interaction`.
     #[must_use]
     pub fn is_between(&self) -> bool {
         self.fields.iter().all(|field| field.kind != "terms")

@@ -1,4 +1,4 @@
-//! Laws that a crate makes known when it is linked: by [`laws!`](crate::laws!), before the first scene is read.
+//! Laws that a crate registers at link time with [`laws!`](crate::laws!), before the first scene is read.
 
 use dbd_kernel::laws::Law;
 
@@ -20,12 +20,12 @@ impl LinkedLaw {
     }
 }
 
-/// Makes laws known to every scene that the program or library reads, from its start.
+/// Registers laws for every scene that the program or library reads.
 ///
-/// Written once, outside of functions, in the crate that becomes the program or the dynamic library: an FMU's, a
-/// Python module's. Each law is a type declared by [`dbd_kernel::law!`], named by its path from other crates, because
-/// exported source uses this path. A law with the name of a shipped law replaces it; [`register`](crate::laws::register)
-/// replaces both.
+/// Call it once, outside of functions, in the crate that becomes the program or the dynamic library (FMU, Python
+/// module). Each law is a type declared with [`dbd_kernel::law!`], given by its path as seen from other crates, because
+/// exported source uses this path. A law with the name of a shipped law replaces it;
+/// [`register`](crate::laws::register) replaces both.
 ///
 /// ```
 /// # mod my_laws { pub use dbd_kernel::laws::{EndStop as Buffer, HingeStop as Latch}; }
@@ -41,7 +41,7 @@ macro_rules! laws {
     };
 }
 
-/// All linked laws in the order of their names: the linker's order means nothing.
+/// All linked laws, sorted by name because the linker's order is arbitrary.
 pub(super) fn linked_laws() -> Vec<KnownLaw> {
     let mut laws: Vec<_> =
         inventory::iter::<LinkedLaw>().map(|linked| (linked.known)(linked.path)).collect();

@@ -1,8 +1,8 @@
-//! The laws of a model whose sizes are known at run time: a list of tables, each of one law.
+//! The laws of a model whose sizes are known at run time: a list of tables, one per law.
 //!
-//! `(rows in double precision) => tables in any precision`. A table is known by its functions alone, so a program
-//! can have laws that it was not compiled with; each law is compiled once per precision, not once per scheme. A
-//! memory is kept as its words.
+//! `(rows in double precision) => tables in any precision`. A table is accessed through its functions only, so a
+//! program can have laws that it was not compiled with; each law is compiled once per precision, not once per scheme. A
+//! memory is stored as words.
 
 use std::any::TypeId;
 use std::fmt;
@@ -23,7 +23,7 @@ pub struct LawList<P: Geometry> {
     tables: Vec<Table<P>>,
 }
 
-/// A table in one precision, and where it is from.
+/// A table in one precision, and its source.
 #[derive(Clone)]
 struct Table<P: Geometry> {
     rows: Arc<dyn Rows<P>>,
@@ -53,8 +53,8 @@ impl<P: Geometry> PartialEq for LawList<P> {
 }
 
 impl<P: Geometry> LawList<P> {
-    /// The tables in this precision; none where their laws are not compiled for it: lanes, and precisions that
-    /// exist for comparison alone.
+    /// The tables in this precision; none where the laws are not compiled for it (lanes, and precisions used for
+    /// comparison only).
     pub(crate) fn of(sources: &[Arc<dyn SourceRows>]) -> Self {
         let table = |source: &Arc<dyn SourceRows>| {
             let rows = source.in_precision(TypeId::of::<P>())?;
@@ -94,7 +94,7 @@ impl<P: Geometry> LawList<P> {
         self.tables.iter().flat_map(|table| table.source.bodies())
     }
 
-    /// Each two bodies between which a row acts: of a coupling all pairs of its bodies.
+    /// Pairs of bodies between which a row acts; for a coupling all pairs of its bodies.
     #[must_use]
     pub fn pairs(&self) -> Vec<[BodyIndex; 2]> {
         let mut pairs = Vec::new();
@@ -108,7 +108,7 @@ impl<P: Geometry> LawList<P> {
         pairs
     }
 
-    /// Replaces the vectors of memories, each of the axes of a body: those of a plane in space, and back.
+    /// Replaces the vectors of memories, each in the axes of a body; used to convert between a plane and space.
     pub fn turn_memories(
         &self,
         states: &mut [Word],
@@ -121,7 +121,7 @@ impl<P: Geometry> LawList<P> {
         }
     }
 
-    /// Table and row of a row over all tables, with where its words and its shares begin.
+    /// Table and row of each row over all tables, with the start indices of its words and its damper fractions.
     fn each(&self) -> impl Iterator<Item = (&Table<P>, [usize; 3])> {
         let mut next = [0; 3];
         self.tables.iter().map(move |table| {

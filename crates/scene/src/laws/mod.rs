@@ -1,6 +1,6 @@
 //! Laws between bodies that scenes can name, of this project and of a user's program, and a model's list of them.
 //!
-//! A user's crate makes its own laws known by [`laws!`](crate::laws!), a program by [`register`] before it reads
+//! A user's crate registers custom laws with [`laws!`](crate::laws!), a program with [`register`] before it reads
 //! scenes.
 
 mod kit;
@@ -29,8 +29,8 @@ use crate::laws::linked::linked_laws;
 
 static OWN: RwLock<Vec<KnownLaw>> = RwLock::new(Vec::new());
 
-/// Makes a law known to all scenes that this program reads from now on; `path` is that of its type in Rust,
-/// `my_laws::Drag`, by which exported source names it. A law of the same name as one before replaces that.
+/// Registers a law for all scenes that this program reads from now on; `path` is the path of its Rust type, e.g.
+/// `my_laws::Drag`, used in exported source. A law replaces an earlier one of the same name.
 pub fn register<L: Law>(path: &str) {
     let law = KnownLaw::of::<L>(path);
     let mut own = OWN.write().unwrap_or_else(PoisonError::into_inner);
@@ -80,13 +80,13 @@ fn put(known: &mut Vec<KnownLaw>, law: KnownLaw) {
 #[must_use]
 pub fn dissipation(restitution: f64, speed: f64) -> f64 {
     let e = restitution;
-    // Where it is positive, y = a·v is too large; e·y < 1.
+    // Positive where y = a·v is too large; e·y < 1.
     let excess = |y: f64| libm::log1p(y) - y - (libm::log1p(-e * y) + e * y);
     let (mut least, mut most) = (0.0, 1.0 / e);
     if e == 1.0 {
         return 0.0;
     }
-    // Until nothing is between them.
+    // Until the bounds are adjacent.
     for _ in 0..200 {
         let middle = 0.5 * (least + most);
         if excess(middle) > 0.0 {

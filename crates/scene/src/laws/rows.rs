@@ -1,4 +1,4 @@
-//! The rows of a law in one precision, their memories kept as words.
+//! The rows of a law in one precision; their memories are stored as words.
 
 use dbd_kernel::damping::Share;
 use dbd_kernel::forces::Wrench;
@@ -6,7 +6,7 @@ use dbd_kernel::laws::{self, Act, DamperPass, Instant, Interaction, Need, Row, S
 use dbd_kernel::words::{Word, WordSource, WordVisitor, Words};
 use dbd_kernel::{BodyIndex, Geometry};
 
-/// A word of the kind of another one.
+/// A word of the same kind as another one.
 pub(super) fn of_bits(like: Word, bits: u64) -> Word {
     match like {
         Word::F32(_) => Word::F32(f32::from_bits(bits as u32)),
@@ -16,7 +16,7 @@ pub(super) fn of_bits(like: Word, bits: u64) -> Word {
     }
 }
 
-/// Memories in another precision: numbers converted as `like` says, one by one.
+/// Memories in another precision: each number is converted to the kind given by `like`.
 #[must_use]
 pub fn convert_words(words: &[Word], like: impl Fn(f64) -> Word) -> Vec<Word> {
     let one = |word: &Word| match *word {
@@ -36,7 +36,7 @@ impl WordSource for Stored<'_> {
     }
 }
 
-/// Words put where they were.
+/// Words written back in place.
 struct Store<'w>(std::slice::IterMut<'w, Word>);
 
 impl WordVisitor for Store<'_> {
@@ -88,7 +88,7 @@ pub(crate) trait Rows<P: Geometry>: Send + Sync {
         pass: &mut dyn DamperPass<P>,
     );
     fn look(&self, row: usize, words: &[Word], look: &mut dyn FnMut(&dyn Row<P>));
-    /// Replaces the vectors of memories, those in the axes of a body.
+    /// Replaces the memory vectors that are in the axes of a body.
     fn turn(&self, words: &mut [Word], turn: &mut dyn FnMut(BodyIndex, [f64; 3]) -> [f64; 3]);
 }
 

@@ -1,4 +1,4 @@
-//! The rows of a law as a scene gives them, in double precision, and in any other one from them.
+//! The rows of a law as given in a scene, in double precision, and their conversion to other precisions.
 
 use std::any::{Any, TypeId};
 use std::sync::Arc;
@@ -9,17 +9,17 @@ use dbd_kernel::{BodyIndex, F32, F64, Fixed, Geometry, Planar32, Planar64};
 
 use crate::laws::rows::{Listed, Of, Rows};
 
-/// The rows of a law in double precision, as a scene gives them.
+/// The rows of a law in double precision, as given in a scene.
 pub(crate) trait SourceRows: Send + Sync {
     fn name(&self) -> &'static str;
-    /// The path of its type in Rust.
+    /// The path of its Rust type.
     fn path(&self) -> &str;
     fn bodies(&self) -> Vec<[BodyIndex; 2]>;
     /// All constants.
     fn words(&self) -> Vec<Word>;
     /// One more row; `None` where the source has refused a constant.
     fn add(&mut self, bodies: [BodyIndex; 2], source: &mut dyn FieldSource) -> Option<()>;
-    /// What is wrong with the last row: a field, the problem, what would be right.
+    /// The error of the last row: field, problem, remedy.
     fn wrong(&self) -> Option<laws::Wrong>;
     /// A table of the same law without rows.
     fn empty(&self) -> Box<dyn SourceRows>;

@@ -1,7 +1,7 @@
-//! `link`: a body that lies between two points.
+//! `link`: a body between two points.
 //!
-//! `table, places => centre of mass, orientation, ends`. One axis of the body points from the first point
-//! to the second; about it the body is turned as little as possible, or as a reference says.
+//! `table, places => centre of mass, orientation, ends`. One axis of the body points from the first point to the
+//! second; the rotation about it is the smallest possible or given by a reference.
 
 mod attitude;
 
@@ -17,10 +17,10 @@ use crate::text::{Choice, Number, Table, Value};
 /// The keys of a link.
 pub(crate) const KEYS: &[&str] = &["from", "to", "along", "reference", "centre", "length"];
 
-/// Two points closer than this share of their coordinates are one.
+/// Points closer than this fraction of their coordinates coincide.
 const COINCIDENT: f64 = 1e-12;
 
-/// A length that misses the points' distance by less than this share of it fits.
+/// Largest relative difference between a given length and the points' distance.
 const FITTING: f64 = 1e-9;
 
 /// A body between two points.
@@ -41,13 +41,13 @@ pub(crate) struct Link {
 /// An end of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct End {
-    /// The point that it is at, or is to come to.
+    /// The point where it is, or to which assembly moves it.
     pub(crate) point: String,
-    /// \[m\] where it is, from the centre of mass, body axes.
+    /// \[m\] position from the centre of mass, body axes.
     pub(crate) place: Vec3<f64>,
 }
 
-/// Reads a link. `is_assembled` says whether an end may lie off its point, to be brought there.
+/// Reads a link. With `is_assembled` an end may lie off its point; assembly moves it there.
 pub(crate) fn read(
     table: &Table<'_>,
     places: &Places,
@@ -63,8 +63,8 @@ pub(crate) fn read(
     let coordinates = [from, to].map(|place| place.nearest().to_f64());
     let largest = coordinates.as_flattened().iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let Some(direction) = arm.unit().filter(|_| apart > COINCIDENT * largest) else {
-        let problem = format!("is where `from` is, {largest:?} m from the origin or nearer");
-        let help = "a link lies between two different points";
+        let problem = format!("coincides with `from`, at most {largest:?} m from the origin");
+        let help = "give two different points";
         return Err(table.refuse_value("to", &problem, help));
     };
     let own = own_length(table, apart, is_assembled)?;
@@ -75,7 +75,7 @@ pub(crate) fn read(
         true => {
             let reference = precise_direction(table, "reference")?;
             attitude::with_reference(direction, along, reference).ok_or_else(|| {
-                let help = "a direction across the link, e.g. one normal to it";
+                let help = "give a direction not parallel to the link, e.g. one normal to it";
                 table.refuse_value("reference", "is parallel to the link", help)
             })?
         }
@@ -92,7 +92,7 @@ pub(crate) fn read(
     Ok(Link { position, orientation, length, along, ends })
 }
 
-/// The link's own length, where it is given and is not that between the points.
+/// The link's length, where it is given and differs from the distance of the points.
 fn own_length(
     table: &Table<'_>,
     apart: f64,
@@ -105,8 +105,8 @@ fn own_length(
     }
     if !is_assembled {
         let problem = format!("is {length:?} m, but its points are {apart:?} m apart");
-        let help = "no `length`, and it is the distance of the points; or points that far apart; or \
-                    [assemble], which moves bodies so that joints close";
+        let help = "omit `length` to use the distance of the points, move the points, or add \
+            [assemble], which moves bodies so that joints close";
         return Err(table.refuse_value("length", &problem, help));
     }
     Ok(Some(length))

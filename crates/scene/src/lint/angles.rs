@@ -11,7 +11,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
             name: written.owner.clone(),
             line: Some(written.line),
             text: format!(
-                "{} is {} rad, more than a whole turn: {} degrees are {} rad",
+                "{} is {} rad, more than one revolution: {} deg would be {} rad",
                 written.key,
                 short(angle),
                 short(angle),

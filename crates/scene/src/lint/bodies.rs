@@ -1,4 +1,4 @@
-//! Bodies that nothing holds, islands, plausibility of mass and inertia.
+//! Unconnected bodies, islands, plausibility of mass and inertia.
 
 use dbd_kernel::Vec3;
 
@@ -7,18 +7,18 @@ use crate::interactions::{InteractionInfo, interactions};
 use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
-/// Points may lie this many radii of gyration from the centre of mass. A rod's ends lie 1.7 away;
-/// at 30 the body is a grain on a long bar without mass, or its inertia has the wrong unit.
+/// Largest distance of a point from the centre of mass in radii of gyration. A rod's ends are at 1.7; beyond 30 the
+/// body is a grain on a long massless bar, or its inertia has the wrong unit.
 const FAR_POINTS: f64 = 30.0;
 
-/// A radius of gyration of this many times the distance of the farthest point: a joint is near the
-/// middle of a large body, or its inertia has the wrong unit.
+/// Largest radius of gyration in distances of the farthest point: beyond it the joints are near the middle of a large
+/// body, or its inertia has the wrong unit.
 const NEAR_POINTS: f64 = 100.0;
 
-/// A least principal moment below this share of the greatest: a needle of 1 m and 0.8 mm across.
+/// Smallest ratio of principal moments: that of a needle 1 m long and 0.8 mm across.
 const NEEDLE: f64 = 1e-6;
 
-/// The heaviest body against the lightest: the step is the light one's, the motion the heavy one's.
+/// Largest ratio of masses: the lightest body limits the step, the heaviest determines the motion.
 const MASS_RATIO: f64 = 1e6;
 
 pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
@@ -33,9 +33,9 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
         let first = island.bodies[0];
         if island.elements == 0 {
             let text = if scene.model.gravity.is_empty() {
-                "no element holds it: it keeps its velocity"
+                "no element acts on it: it keeps its velocity"
             } else {
-                "no element holds it: it falls"
+                "no element acts on it: it falls freely"
             };
             warnings.push(of_body(scene, first, Severity::Warning, text));
         } else if !island.grounded {
@@ -43,11 +43,11 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
                 if scene.model.gravity.is_empty() { Severity::Note } else { Severity::Warning };
             let with = match island.bodies.len() {
                 1 => String::new(),
-                2 => " with 1 more body".into(),
-                bodies => format!(" with {} more bodies", bodies - 1),
+                2 => " to 1 more body".into(),
+                bodies => format!(" to {} more bodies", bodies - 1),
             };
             let falls = if scene.model.gravity.is_empty() { "" } else { " and falls" };
-            let text = format!("hangs together{with} but not with the world{falls}");
+            let text = format!("is connected{with} but not to the world{falls}");
             warnings.push(of_body(scene, first, severity, &text));
         }
         if island.elements > 0 {
@@ -58,9 +58,10 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
                     continue;
                 }
                 let text = match own.is_empty() {
-                    true => "only torsion springs hold it, and they hold no place",
+                    true => "only torsion springs act on it: nothing constrains its position",
                     false => {
-                        "only torsion springs or interactions about an axis hold it, and they hold no place"
+                        "only torsion springs or interactions about an axis act on it: nothing \
+                         constrains its position"
                     }
                 };
                 warnings.push(of_body(scene, row, Severity::Warning, text));
@@ -75,7 +76,7 @@ fn of_body(scene: &Scene, row: usize, severity: Severity, text: &str) -> Warning
     Warning { severity, name: format!("body `{name}`"), line, text: text.into() }
 }
 
-/// \[m\] per body the farthest of its points from its centre of mass, `None` without points.
+/// \[m\] distance of each body's farthest point from its centre of mass; `None` without points.
 fn farthest_points(scene: &Scene) -> Vec<Option<f64>> {
     let mut farthest = vec![None; scene.model.bodies.len()];
     for group in &scene.model.groups {
@@ -92,7 +93,7 @@ fn farthest_points(scene: &Scene) -> Vec<Option<f64>> {
         }
     }
     for info in interactions(scene) {
-        // A plane has no end: its point is anywhere on it.
+        // A plane is unbounded: its point may be anywhere on it.
         let first = usize::from(info.normal.is_some());
         for (body, [x, y, z]) in
             info.bodies.iter().zip(info.points.into_iter().flatten()).skip(first)
@@ -117,20 +118,19 @@ fn plausibility(scene: &Scene, row: usize, farthest: Option<f64>, warnings: &mut
         let (size, far_text) = (short(gyration), short(far));
         if far > FAR_POINTS * gyration {
             warn(format!(
-                "its inertia is that of a body of {size} m (radius of gyration), but elements act \
-                 {far_text} m from its centre of mass: is the inertia in kg·m², the point in m?"
+                "its inertia gives a radius of gyration of {size} m, but elements act {far_text} m \
+                 from its centre of mass; check that the inertia is in kg·m² and the point in m"
             ));
         } else if gyration > NEAR_POINTS * far {
             warn(format!(
-                "its inertia is that of a body of {size} m (radius of gyration), but all elements \
-                 act within {far_text} m of its centre of mass: is the inertia in kg·m²?"
+                "its inertia gives a radius of gyration of {size} m, but all elements act within \
+                 {far_text} m of its centre of mass; check that the inertia is in kg·m²"
             ));
         }
     }
     if least < NEEDLE * greatest {
         warn(format!(
-            "its principal moments differ by a factor of {}: about the smallest it turns so easily \
-             that it may decide the step",
+            "its principal moments differ by a factor of {}: the smallest may limit the step size",
             short(greatest / least)
         ));
     }
@@ -144,7 +144,7 @@ fn mass_ratio(scene: &Scene, warnings: &mut Vec<Warning>) {
         && greatest > MASS_RATIO * least
     {
         let text = format!(
-            "has {} of the mass of `{}`: its vibration decides the step of the whole scene",
+            "has {} of the mass of `{}`: its vibration limits the step size of the whole scene",
             short(least / greatest),
             scene.body_names[heavy]
         );

@@ -1,4 +1,4 @@
-//! Joints and raw elements that do nothing, that are torn from the start or that are pulled at.
+//! Joints and raw elements without effect, overstretched at t = 0 or separated by the initial velocities.
 
 use dbd_kernel::model::{Group, Law};
 
@@ -6,7 +6,7 @@ use crate::facts::{self, GroupFacts};
 use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
-/// \[m/s\] Velocities given with three digits pull less at a joint.
+/// \[m/s\] Velocities given with three digits separate a joint more slowly.
 const STRETCHING_RATE: f64 = 1e-3;
 
 pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
@@ -20,18 +20,15 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
         let Some(group) = scene.model.groups.get(joint.groups.start) else { continue };
         if stiffness(scene, group) == 0.0 {
             let text = if group.damper.row().is_none() {
-                "has neither stiffness nor damping: it does nothing"
+                "has neither stiffness nor damping: it has no effect"
             } else {
-                "has damping but no stiffness: it holds no place"
+                "has damping but no stiffness: it constrains no position"
             };
             warn(Severity::Warning, text);
         }
         if joint.mass_left_out > 0.0 {
             let mass = short(joint.mass_left_out);
-            warn(
-                Severity::Note,
-                &format!("is a bushing: the {mass} kg of its spider are left out"),
-            );
+            warn(Severity::Note, &format!("is a bushing: the {mass} kg of its spider are ignored"));
         }
         let facts = &groups[joint.groups.clone()];
         let rate = facts.iter().map(|group| group.stretching_rate).fold(0.0, f64::max);
@@ -39,7 +36,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
             let rate = short(rate);
             warn(
                 Severity::Note,
-                &format!("the initial velocities pull it apart at {rate} m/s: it will ring"),
+                &format!("the initial velocities separate it at {rate} m/s: it will oscillate"),
             );
         }
     }
@@ -53,12 +50,12 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
             warnings.push(Warning { severity, name, line, text });
         };
         if stiffness(scene, group) == 0.0 && group.damper.row().is_none() {
-            warn("has neither stiffness nor damping: it does nothing".into());
+            warn("has neither stiffness nor damping: it has no effect".into());
         }
         if overstretched(facts) {
             warn(format!(
-                "is {} m long at first, more than twice its free length of {} m: are its points \
-                 in the axes of their bodies?",
+                "is {} m long at t = 0, more than twice its free length of {} m; check that its \
+                 points are in the axes of their bodies",
                 short(facts.longest),
                 short(facts.free_length)
             ));
@@ -71,7 +68,7 @@ fn overstretched(facts: &GroupFacts) -> bool {
     facts.free_length > 0.0 && facts.longest > 2.0 * facts.free_length
 }
 
-/// \[N/m\] of an element; those of a group have one stiffness.
+/// \[N/m\] stiffness of an element; the elements of a group share one.
 pub(super) fn stiffness(scene: &Scene, group: &Group) -> f64 {
     let element = usize::from(group.element);
     match group.law {

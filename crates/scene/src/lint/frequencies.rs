@@ -1,4 +1,4 @@
-//! An element that vibrates far faster than the others: it alone decides the step.
+//! An element with a far higher frequency than the others, which alone limits the step size.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::scene::Scene;
 /// The joints of the scenes that ship lie within 3 of their median.
 const FAR_ABOVE: f64 = 20.0;
 
-/// A median of fewer says nothing.
+/// Fewest joints for a meaningful median.
 const FEWEST: usize = 3;
 
 pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
@@ -23,8 +23,8 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
         name: fastest.name.clone(),
         line: scene.line_of_element(fastest.row),
         text: format!(
-            "alone vibrates at {} Hz, {} times as fast as the median of the joints: it decides the \
-             step; are its stiffness in N/m, its bodies' masses in kg?",
+            "vibrates at {} Hz, {} times the median of the joints, and alone limits the step size; \
+             check that its stiffness is in N/m and its bodies' masses in kg",
             short(fastest.frequency / TAU),
             short(fastest.frequency / median),
         ),

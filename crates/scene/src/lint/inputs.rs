@@ -1,4 +1,5 @@
-//! Tables and sines of inputs of which the run reaches little or which its step does not resolve, and drives of bodies that more joints may have to guide.
+//! Input tables and sines that the run hardly reaches or its step does not resolve, and drives in scenes where a joint
+//! may be missing.
 
 use std::collections::BTreeSet;
 
@@ -8,10 +9,10 @@ use crate::scene::Scene;
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::elements::source::SourceLaw;
 
-/// Straight lines may lead to one knot beyond the end, but hardly to one so many durations away.
+/// A linear table may end beyond the run, but hardly by this many durations.
 const FAR: f64 = 100.0;
 
-/// A period of fewer steps is not that of the scene.
+/// Fewest steps per period.
 const COARSE: f64 = 10.0;
 
 pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
@@ -22,7 +23,7 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
         let knots = &scene.model.knots[usize::from(input.knot)..][..usize::from(input.knots)];
         let late = knots.iter().filter(|knot| knot.time > scene.duration).count();
         let last = knots.last().map_or(0.0, |knot| knot.time);
-        // Where lines lead from knot to knot the first one beyond the end counts, too.
+        // With linear interpolation the first knot beyond the end is used as well.
         let is_linear = knots.iter().any(|knot| knot.slope != 0.0);
         let unused = if is_linear { late.saturating_sub(1) } else { late };
         if unused == 0 && (late == 0 || last <= FAR * scene.duration) {
@@ -33,8 +34,8 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
             name: format!("input `{}`", info.name),
             line: scene.file_lines.inputs.get(row).copied(),
             text: format!(
-                "{late} of the {} times of its table are after the end of the run at {} s, the last at {} s: are they \
-                 in s, is the `duration` long enough?",
+                "{late} of the {} times of its table are after the end of the run at {} s, the \
+                 last at {} s; check that they are in s and that the `duration` is long enough",
                 knots.len(),
                 short(scene.duration),
                 short(last)
@@ -43,7 +44,7 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     }
 }
 
-/// Sines and repeated tables that the run sees little of, or whose period its step does not resolve.
+/// Sines and periodic tables that the run hardly covers, or whose period its step does not resolve.
 fn sources(scene: &Scene, warnings: &mut Vec<Warning>) {
     for source in &scene.model.sources {
         let row = usize::from(source.input.0);
@@ -54,15 +55,16 @@ fn sources(scene: &Scene, warnings: &mut Vec<Warning>) {
         let is_coarse = |step: &f64| period < COARSE * step;
         let text = if let Some(step) = scene.step.filter(is_coarse) {
             format!(
-                "its period of {} s is {} steps of {} s: a smaller `step` resolves it",
+                "its period of {} s is only {} steps of {} s; use a smaller `step`",
                 short(period),
                 short(period / step),
                 short(step)
             )
         } else if period > if is_table { 1.0 } else { FAR } * scene.duration * (1.0 + 1e-9) {
-            let what = if is_table { "table repeats" } else { "sine swings" };
+            let what = if is_table { "table repeats" } else { "sine repeats" };
             format!(
-                "its {what} every {} s, the run ends at {} s: is its time in s, is the `duration` long enough?",
+                "its {what} every {} s, but the run ends at {} s; check that its time is in s and \
+                 that the `duration` is long enough",
                 short(period),
                 short(scene.duration)
             )
@@ -79,7 +81,7 @@ fn sources(scene: &Scene, warnings: &mut Vec<Warning>) {
     }
 }
 
-/// Freedoms that neither inputs drive nor springs hold, in a scene whose joints or springs are driven.
+/// Degrees of freedom without drive or spring in a scene whose joints or springs are driven.
 fn undriven(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let is_drive = |kind: &InputKind<_>| {
         matches!(kind, InputKind::JointTorque { .. } | InputKind::Actuator { .. })
@@ -88,7 +90,7 @@ fn undriven(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
         return;
     };
     let [driven, springs] = [scene.inputs.len(), scene.raw_names.len() + scene.torsion_springs()];
-    // Friction or stops act on a freedom as a spring does; several at one joint act on one.
+    // Friction and stops count as springs; several at one joint count once.
     let laws = scene.model.laws.bodies().map(|ends| ends.map(|end| end.0));
     let laws = laws.collect::<BTreeSet<[u16; 2]>>().len();
     let acted_on = driven + springs + laws;
@@ -103,7 +105,8 @@ fn undriven(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
         name: format!("input `{}`", scene.inputs[first].name),
         line: scene.file_lines.inputs.get(first).copied(),
         text: format!(
-            "joints leave {freedoms} freedoms, of which {driven} {} driven and {springs} {} sprung{with_laws}: is a joint missing?",
+            "joints leave {freedoms} degrees of freedom, of which {driven} {} driven and {springs} \
+             {} sprung{with_laws}; check for a missing joint",
             are(driven),
             are(springs)
         ),

@@ -4,7 +4,7 @@ use crate::facts::Facts;
 use crate::lint::warning::{Severity, Warning};
 use crate::scene::Scene;
 
-/// Bodies that a warning names besides the first.
+/// Most other bodies listed in a warning.
 const NAMED: usize = 4;
 
 pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
@@ -17,8 +17,8 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
             name: format!("joint `{}`", last.1.name),
             line: scene.line_of_joint(last.0),
             text: format!(
-                "and joint `{}` leave `{a}` and `{b}` no motion: hinges between two bodies share one axis; is another \
-                 body meant, or a `fixed` joint?",
+                "together with joint `{}` leaves `{a}` and `{b}` no relative motion: hinges \
+                 between two bodies must share one axis; check the bodies, or use a `fixed` joint",
                 first.1.name
             ),
         });
@@ -32,15 +32,15 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let and = if names.is_empty() {
         String::new()
     } else {
-        format!(", nor can {} move", names.join(", "))
+        format!(", and {} cannot move either", names.join(", "))
     };
     warnings.push(Warning {
         severity: Severity::Warning,
         name: format!("body {}", name(first)),
         line: scene.line_of_body(*first),
         text: format!(
-            "is locked: the joints together leave it no freedom at the initial pose{and}; a joint on \
-             the wrong body, or of a wrong type or axis?"
+            "is locked: the joints leave it no degree of freedom at the initial pose{and}; check \
+             their bodies, types and axes"
         ),
     });
 }

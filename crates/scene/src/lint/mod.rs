@@ -1,8 +1,8 @@
-//! What is probably not meant in a scene that is nevertheless right.
+//! Warnings about a valid scene.
 //!
 //! `scene => warnings`, in the order parameters, angles, bodies, joints and raw elements, torsion springs, interactions, frequencies, inputs,
-//! read-outs. They stop nothing: what cannot be run is refused when the scene is read. Every threshold is a constant
-//! beside its reason.
+//! read-outs. Warnings never stop a run; invalid scenes are refused when they are read. Every threshold is a constant
+//! with its reason.
 
 mod angles;
 mod bodies;
@@ -24,13 +24,13 @@ pub use warning::{Severity, Warning};
 use crate::facts::{Facts, facts};
 use crate::scene::Scene;
 
-/// What is probably not meant.
+/// The warnings about a scene.
 #[must_use]
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
     warnings_with(scene, &facts(scene))
 }
 
-/// What is probably not meant, where the scene's [facts](crate::facts()) are at hand.
+/// The warnings about a scene whose [facts](crate::facts()) are known.
 #[must_use]
 pub fn warnings_with(scene: &Scene, facts: &Facts) -> Vec<Warning> {
     let mut warnings = Vec::new();

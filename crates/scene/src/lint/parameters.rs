@@ -1,4 +1,4 @@
-//! Parameters that nothing names: a value that is changed in vain.
+//! Unused parameters.
 
 use crate::lint::warning::{Severity, Warning};
 use crate::scene::Scene;
@@ -9,6 +9,6 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
         severity: Severity::Warning,
         name: format!("parameter `{}`", crate::shortened(&parameter.name)),
         line: parameter.line,
-        text: "no value of the scene names it: another value of it changes nothing".into(),
+        text: "is unused: no value of the scene refers to it".into(),
     }));
 }

@@ -1,9 +1,8 @@
-//! Joints that lie where one of their bodies is not.
+//! Joints outside the extent of one of their bodies.
 //!
-//! `(mass, inertia, points) => joints beyond a body's reach`. What a body reaches is known from its
-//! principal second moments of mass alone: a uniform convex body lies within √15 root mean square
-//! widths of its centre of mass (Kannan, Lovász & Simonovits 1995, theorem 4.1: √(n(n+2)) in n
-//! dimensions; a rod's ends lie at 1.7, an ellipsoid's at 2.2, a box's corners at 3).
+//! `(mass, inertia, points) => joints beyond a body's extent`. The principal second moments of mass bound the extent: a
+//! uniform convex body lies within √15 root mean square widths of its centre of mass (Kannan, Lovász & Simonovits 1995,
+//! theorem 4.1: √(n(n+2)) in n dimensions; a rod's ends lie at 1.7, an ellipsoid's at 2.2, a box's corners at 3).
 
 use dbd_kernel::Vec3;
 use dbd_kernel::model::{Group, Law};
@@ -11,14 +10,14 @@ use dbd_kernel::model::{Group, Law};
 use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
-/// The square of the farthest that a uniform convex body reaches, in root mean square widths.
+/// Square of the largest extent of a uniform convex body in root mean square widths.
 const CONVEX: f64 = 15.0;
 
-/// Nearer to the centre of mass than this part of its reach an element says nothing of how large
-/// the body is: a bob hangs by its middle, and by a rod without mass from elsewhere.
+/// An element within this fraction of the extent is treated as central and gives no information on the body's size: a
+/// bob may be held at its middle by a massless rod.
 const MIDDLE: f64 = 0.1;
 
-/// How far an element's nearest point lies from a body's centre of mass.
+/// Distance of an element's nearest point from a body's centre of mass.
 #[derive(Clone, Copy)]
 struct Place {
     /// The group.
@@ -27,7 +26,7 @@ struct Place {
     body: usize,
     /// \[m\].
     distance: f64,
-    /// In parts of what body and element reach together, in that direction.
+    /// Relative to the combined extent of body and element in that direction.
     part: f64,
 }
 
@@ -35,23 +34,23 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
     let groups = scene.model.groups.iter().enumerate();
     let places: Vec<Place> =
         groups.flat_map(|(number, group)| places(scene, number, group)).collect();
-    // Only of a body that is held where it is can it be said where it is not.
+    // Only bodies whose position is constrained are checked.
     let mut placed = vec![0_usize; scene.model.bodies.len()];
     for place in &places {
         placed[place.body] += usize::from((MIDDLE..=1.0).contains(&place.part));
     }
     for (number, joint) in scene.joints.iter().enumerate() {
-        // Places are in the order of their groups.
+        // Entries are in the order of their groups.
         let [from, until] = [joint.groups.start, joint.groups.end]
             .map(|group| places.partition_point(|place| place.group < group));
         let own = |place: &&Place| scene.body_names.get(place.body) != joint.spider.as_ref();
         let beyond = places[from..until].iter().filter(own);
         let beyond = beyond.filter(|p| p.part > 1.0 && placed[p.body] > 0);
-        // Of a joint that lies off both its bodies the one that is farther is named.
+        // For a joint off both bodies the farther one is reported.
         let Some(worst) = beyond.max_by(|a, b| a.part.total_cmp(&b.part)) else { continue };
         let text = format!(
-            "lies {} m from the centre of mass of `{}`, {} times as far as a body of that mass and \
-             inertia reaches: is it the right body, and `at` the right place?",
+            "lies {} m from the centre of mass of `{}`, {} times the extent that its mass and \
+             inertia imply; check the body and `at`",
             short(worst.distance),
             scene.body_names[worst.body],
             short(worst.part),
@@ -62,13 +61,13 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
     }
 }
 
-/// Where a group's points lie on its two bodies.
+/// The distances of a group's points from its two bodies.
 fn places(scene: &Scene, number: usize, group: &Group) -> Vec<Place> {
     let first = usize::from(group.point);
     let centres = first + usize::from(group.stars);
     let last = first + group.points();
     let size = size(scene, number, group);
-    // A line has no end: its points are anywhere on it.
+    // A line is unbounded: its points may be anywhere on it.
     let ends =
         [(group.a, first..centres, group.law != Law::PointOnLine), (group.b, centres..last, true)];
     let ends = ends.into_iter().filter(|(.., has_place)| *has_place);
@@ -87,8 +86,8 @@ fn places(scene: &Scene, number: usize, group: &Group) -> Vec<Place> {
     ends.filter_map(place).collect()
 }
 
-/// \[m\] how far a uniform convex body reaches along its axes. A flat one counts as thick as it is
-/// wide: a rotor's shaft weighs little.
+/// \[m\] extent of a uniform convex body along its axes. A flat body is taken as thick as it is wide, because a rotor's
+/// shaft weighs little.
 fn reach(mass: f64, inertia: Vec3<f64>) -> Vec3<f64> {
     let Vec3 { x, y, z } = inertia;
     let width = |square: f64| libm::sqrt((CONVEX * square / (2.0 * mass)).max(0.0));
@@ -101,7 +100,7 @@ fn reach(mass: f64, inertia: Vec3<f64>) -> Vec3<f64> {
     Vec3::from_f64(widths)
 }
 
-/// \[m\] how large a joint is: the length of its elements, or of those that its bushings stand for.
+/// \[m\] size of a joint: the length of its elements, or of those that its bushings replace.
 fn size(scene: &Scene, number: usize, group: &Group) -> f64 {
     let element = usize::from(group.element);
     match group.law {

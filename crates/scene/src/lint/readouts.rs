@@ -1,4 +1,4 @@
-//! Forces of joints that ring.
+//! Read-outs of undamped joint forces.
 
 use dbd_kernel::readouts::Readout;
 
@@ -20,8 +20,8 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
             name: format!("read-out `{}`", info.name),
             line: Some(*line),
             text: format!(
-                "joint `{}` is undamped, so its force rings about the load: a `damping_ratio` with a `frequency` there \
-                 lets that decay",
+                "joint `{}` is undamped, so its force oscillates about the load; give the joint a \
+                 `damping_ratio` with a `frequency`",
                 joint.name
             ),
         });

@@ -1,5 +1,5 @@
-//! Raw springs that act on the side on which what their name says does not, that start far shorter than their free
-//! length, or that store more energy at t = 0 than fits their bodies.
+//! Raw springs that act in a direction that contradicts their name, start far shorter than their free length, or store
+//! an implausible energy at t = 0.
 
 use dbd_kernel::Vec3;
 use dbd_kernel::model::{Group, Law};
@@ -10,7 +10,7 @@ use crate::lint::elements::stiffness;
 use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
-/// Words for what only pulls, and for what only pushes.
+/// Names of elements that only pull, and of elements that only push.
 const PULLS: &[&str] =
     &["band", "belt", "cable", "cord", "rope", "strap", "string", "tendon", "tether", "wire"];
 const PUSHES: &[&str] = &[
@@ -18,17 +18,16 @@ const PUSHES: &[&str] = &[
     "stopper", "tire", "tyre",
 ];
 
-/// A spring is unstrained that is off its free length by less than this share of it.
+/// Largest relative strain of a spring that counts as unstrained.
 const UNSTRAINED: f64 = 1e-3;
 
-/// A spring starts far shorter than its free length below this share of it: its coils would touch.
+/// Smallest initial length relative to the free length: below it the coils would touch.
 const SHORT: f64 = 0.5;
 
-/// \[J/kg\] Spring steel stores no more than this per mass of its own; all springs of bodies together store less
-/// per mass of the bodies.
+/// \[J/kg\] Energy density of spring steel per mass of steel; the springs of a scene store less per mass of its bodies.
 const STORED: f64 = 300.0;
 
-/// Nor more than would lift the bodies by so many times their size.
+/// Largest plausible energy: it lifts the bodies by this many times their size.
 const LIFTS: f64 = 30.0;
 
 pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
@@ -52,7 +51,8 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     for (name, line) in torsion_springs.zip(&scene.file_lines.torsion_springs) {
         if let Some((word, _)) = one_sided(name) {
             let text = format!(
-                "acts in both directions, which no {word} does: `limits` of a joint act beyond their range only"
+                "acts in both directions, unlike a {word}; use the `limits` of a joint, which act \
+                 only outside their range"
             );
             let (severity, name, line) = (Severity::Note, name.clone(), Some(*line));
             warnings.push(Warning { severity, name, line, text });
@@ -71,7 +71,7 @@ pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
 struct Spring<'s> {
     group: &'s Group,
     facts: &'s GroupFacts,
-    /// \[m\] beyond its clearance; negative where it is compressed.
+    /// \[m\] extension beyond its clearance; negative where it is compressed.
     extension: f64,
     name: &'s str,
     line: usize,
@@ -82,22 +82,23 @@ impl Spring<'_> {
         Warning { severity, name: self.name.to_owned(), line: Some(self.line), text }
     }
 
-    /// What is said of one that acts on both sides though its name says one.
+    /// The warning about a spring that acts in both directions although its name suggests one.
     fn side(&self) -> Option<(Severity, String)> {
         let (word, pulls) = one_sided(self.name).filter(|_| self.group.law == Law::Tsda)?;
         let [does, now, length] =
-            if pulls { ["push", "pushes", "short"] } else { ["pull", "pulls", "long"] };
+            if pulls { ["pushes", "pushes", "short"] } else { ["pulls", "pulls", "long"] };
         let amount = if pulls { -self.extension } else { self.extension };
         if amount <= UNSTRAINED * self.facts.free_length {
             let text = format!(
-                "acts on both sides: unlike a {word} it would also {does} where it gets too {length}; the law \
-                 `distance-stop` of an interaction does not"
+                "acts in both directions: unlike a {word} it also {does} when it gets too \
+                 {length}; use the law `distance-stop` of an interaction"
             );
             return Some((Severity::Note, text));
         }
         let text = format!(
-            "{now} at t = 0, which no {word} does: it is {} m long and its free length is {} m; another free length, \
-             or the law `distance-stop` of an interaction, which acts on one side",
+            "{now} at t = 0, unlike a {word}: it is {} m long and its free length is {} m; change \
+             the free length, or use the law `distance-stop` of an interaction, which acts in one \
+             direction",
             short(self.facts.longest),
             short(self.facts.free_length)
         );
@@ -106,11 +107,11 @@ impl Spring<'_> {
 
     fn shortness(&self) -> Option<(Severity, String)> {
         let GroupFacts { free_length, longest, .. } = *self.facts;
-        // A point on a line may lie anywhere within its distance from it.
+        // A point on a line may start at any smaller distance.
         (self.group.law == Law::Tsda && longest < SHORT * free_length).then(|| {
             let text = format!(
-                "is {} m long at first, less than half its free length of {} m: are its points in the axes of \
-                 their bodies, is the free length in m?",
+                "is {} m long at t = 0, less than half its free length of {} m; check that its \
+                 points are in the axes of their bodies and its free length is in m",
                 short(longest),
                 short(free_length)
             );
@@ -119,7 +120,7 @@ impl Spring<'_> {
     }
 }
 
-/// What the springs of bodies that hang together store at t = 0, where it is out of proportion.
+/// The warning about an implausible energy at t = 0 in the springs of connected bodies.
 fn energy<'s>(
     scene: &Scene,
     bodies: &[usize],
@@ -145,8 +146,8 @@ fn energy<'s>(
     warnings.push(spring.warning(
         Severity::Warning,
         format!(
-            "stores {} J at t = 0, enough to throw the {} kg of its bodies at {} m/s: are its points, its free length \
-             and its stiffness right, is a `clearance` missing?",
+            "stores {} J at t = 0, enough to accelerate the {} kg of its bodies to {} m/s; check \
+             its points, free length and stiffness, or add a `clearance`",
             short(*most),
             short(mass),
             short(libm::sqrt(2.0 * most / mass))
@@ -154,7 +155,7 @@ fn energy<'s>(
     ));
 }
 
-/// \[m\] how far a spring is beyond its clearance.
+/// \[m\] extension of a spring beyond its clearance.
 fn extension(scene: &Scene, group: &Group, facts: &GroupFacts) -> f64 {
     let whole = facts.longest - facts.free_length;
     let clearance = group.clearance.row().and_then(|row| scene.model.clearances.get(row));
@@ -162,22 +163,22 @@ fn extension(scene: &Scene, group: &Group, facts: &GroupFacts) -> f64 {
     beyond.copysign(whole)
 }
 
-/// A raw spring that acts on both sides though its name says one.
+/// A raw spring that acts in both directions although its name suggests one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OneSided {
     /// Its group in the model.
     pub group: usize,
-    /// What messages call it: ``tsda `left rope` (world–hand)``.
+    /// Its name in messages: ``tsda `left rope` (world–hand)``.
     pub name: String,
     /// Its line in the scene file, from 1.
     pub line: usize,
-    /// What its name says it is: `rope`.
+    /// The word in its name: `rope`.
     pub word: &'static str,
-    /// Whether such a thing only pulls; it only pushes otherwise.
+    /// Whether such an element only pulls; otherwise it only pushes.
     pub pulls: bool,
 }
 
-/// The raw springs that act on both sides though their names say one: ropes that may push, tyres and stops
+/// The raw springs that act in both directions although their names suggest one: ropes that may push, tyres and stops
 /// that may pull.
 #[must_use]
 pub fn one_sided_springs(scene: &Scene) -> Vec<OneSided> {
@@ -190,7 +191,7 @@ pub fn one_sided_springs(scene: &Scene) -> Vec<OneSided> {
     named.filter_map(one).collect()
 }
 
-/// The word of an element's own name that says it acts on one side only, and whether it pulls.
+/// The word in an element's name that implies one direction, and whether it pulls.
 fn one_sided(label: &str) -> Option<(&'static str, bool)> {
     let name = label.split('`').nth(1)?.to_lowercase();
     let words = || name.split(|letter: char| !letter.is_alphabetic());

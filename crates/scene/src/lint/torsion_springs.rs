@@ -1,4 +1,4 @@
-//! Torsion springs that do nothing or whose twist is not that of a joint.
+//! Torsion springs without effect, or whose torsion angle is not that of a joint.
 
 use std::collections::HashMap;
 
@@ -21,7 +21,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
             warnings.push(Warning { severity, name, line, text });
         };
         if spring.stiffness == 0.0 && spring.preload == 0.0 && spring.damper.row().is_none() {
-            let text = "has neither stiffness nor damping nor preload: it does nothing";
+            let text = "has neither stiffness nor damping nor preload: it has no effect";
             warn(Severity::Warning, text.into());
         }
         let revolutes = revolutes.between(spring.a, spring.b);
@@ -37,8 +37,8 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
                 warn(
                     Severity::Warning,
                     format!(
-                        "its axis is {} degrees off that of the revolute joint `{name}` between the \
-                         same bodies, about which they turn",
+                        "its axis is {} degrees off that of the revolute joint `{name}` between \
+                         the same bodies",
                         short(degrees)
                     ),
                 );
@@ -46,8 +46,8 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
             Some(_) => {}
             None => warn(
                 Severity::Note,
-                "no revolute joint guides its two bodies: its twist is undefined where they have \
-                 turned by half a turn about another axis"
+                "no revolute joint guides its two bodies: its torsion angle is undefined after \
+                 half a revolution about another axis"
                     .into(),
             ),
         }
@@ -62,8 +62,7 @@ fn axis_of(scene: &Scene, spring: &TorsionSpring<f64>) -> Vec3<f64> {
     }
 }
 
-/// Names and axes of the revolutes, those of universal joints included, by the bodies between which
-/// they are.
+/// Names and axes of the revolute joints, universal joints included, by their pair of bodies.
 struct Revolutes<'s>(HashMap<[u16; 2], Vec<(&'s str, Vec3<f64>)>>);
 
 impl<'s> Revolutes<'s> {
@@ -81,13 +80,13 @@ impl<'s> Revolutes<'s> {
         Self(found)
     }
 
-    /// Those between two bodies, in scene order.
+    /// The ones between two bodies, in scene order.
     fn between(&self, a: BodyIndex, b: BodyIndex) -> &[(&'s str, Vec3<f64>)] {
         self.0.get(&pair(a, b)).map_or(&[], Vec::as_slice)
     }
 }
 
-/// Two bodies, whichever is named first.
+/// Two bodies in canonical order.
 fn pair(a: BodyIndex, b: BodyIndex) -> [u16; 2] {
     [a.0.min(b.0), a.0.max(b.0)]
 }

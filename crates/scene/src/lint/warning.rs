@@ -1,26 +1,26 @@
-//! A warning, and numbers in its words.
+//! A warning, and the formatting of its numbers.
 
 use std::fmt;
 
-/// How much a warning weighs.
+/// Severity of a warning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// Good to know; often meant.
+    /// Information; often intended.
     Note,
     /// Probably a mistake.
     Warning,
 }
 
-/// Something that is probably not meant, or good to know.
+/// A probable mistake, or information.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Warning {
-    /// How much it weighs.
+    /// Its severity.
     pub severity: Severity,
-    /// What it is about, as messages call it: ``joint `wrist` ``.
+    /// Its subject: ``joint `wrist` ``.
     pub name: String,
-    /// The line, from 1, on which that begins in the scene file.
+    /// The line of the subject in the scene file, from 1.
     pub line: Option<usize>,
-    /// What is odd about it.
+    /// The text of the warning.
     pub text: String,
 }
 
@@ -33,7 +33,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// A number with three digits.
+/// A number with three significant digits.
 pub(super) fn short(value: f64) -> String {
     if (1e-2..1e4).contains(&value.abs()) || value == 0.0 {
         let digits = if value.abs() < 1.0 { 4 } else { 2 };

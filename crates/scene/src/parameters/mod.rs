@@ -1,10 +1,9 @@
-//! Changes of single values of a scene by their paths, before it is checked: `body.cart.mass=1.2`; and the
-//! values that a scene names itself in `[parameters]` (`named.rs`).
+//! Changes of single values of a scene by their paths, before it is checked: `body.cart.mass=1.2`; and the named values
+//! in `[parameters]` (`named.rs`).
 //!
-//! `(text, changes) => tables with other values`. A changed value is checked as one in the file is; a refusal
-//! of it names the change. Of a kind of which there are many, the second step of a path is a name, or
-//! the number from 1 of what has none; then keys, and entries of arrays from 0. A key that a table
-//! does not have is added to it.
+//! `(text, changes) => tables with other values`. A changed value is checked like one in the file; an error points to
+//! the change. In a list of tables the second step of a path is a name, or the number from 1 of an unnamed table; then
+//! follow keys and array indices from 0. A missing key is added to its table.
 
 mod named;
 mod numbers;
@@ -25,33 +24,32 @@ pub(crate) use numbers::numbers;
 use path::{Placed, Step};
 pub use pattern::is_of;
 
-/// What a change did.
+/// The effect of a change.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Changed {
     /// The whole path of one value, without wildcards: `body.cart.mass`.
     pub path: String,
-    /// As it was written in the file; `None` where it was not there.
+    /// The value in the file; `None` where it was absent.
     pub before: Option<String>,
-    /// As it is now.
+    /// The new value.
     pub now: String,
 }
 
-/// A scene's text with changes behind it, so that each byte of either has one place.
+/// A scene's text followed by the changes, so that each byte of either has a unique position.
 pub(crate) struct Changes {
     /// The file's text, then a line per change, its value written in TOML.
     text: String,
-    /// How long the file's text is.
+    /// Length of the file's text.
     own: usize,
     changes: Vec<Change>,
 }
 
 struct Change {
     steps: Vec<Placed>,
-    /// Where its line begins in the whole text, and its value.
+    /// Start of its line in the whole text, and start of its value.
     start: usize,
     value: usize,
-    /// Blanks up to the value and the value as a table's: what is parsed has the places of the whole
-    /// text.
+    /// The value as a table, preceded by blanks so that parsed positions are those of the whole text.
     padded: String,
 }
 
@@ -64,8 +62,8 @@ impl Changes {
             let (steps, value) = path::read(source)?;
             let tail = written[value..].trim();
             if tail.is_empty() || tail.contains(['\n', '\r']) {
-                let help = "a value is a number, a text or an array as in the file, on one line";
-                let problem = format!("`{}` is no value", shortened(tail));
+                let help = "give a number, a text or an array as in the file, on one line";
+                let problem = format!("`{}` is not a valid value", shortened(tail));
                 return Err(source.refuse(value..written.len(), problem, help));
             }
             let toml = if is_word(tail) { format!("\"{tail}\"") } else { tail.to_owned() };
@@ -80,7 +78,7 @@ impl Changes {
         Ok(whole)
     }
 
-    /// Whether there is none.
+    /// Whether there are no changes.
     pub(crate) fn is_empty(&self) -> bool {
         self.changes.is_empty()
     }
@@ -90,7 +88,7 @@ impl Changes {
         Source { own: self.own, ..Source::of(file, &self.text) }
     }
 
-    /// Puts the values into the document, one change after the other.
+    /// Applies the changes to the document in order.
     pub(crate) fn apply<'t>(
         &'t self,
         file: &'t str,
@@ -114,7 +112,7 @@ impl Changes {
     }
 }
 
-/// Whether a value is a text without its quotes: `20us`, `9 kN/mm`, `2 * L`, `quaternion`.
+/// Whether a value is text without quotes: `20us`, `9 kN/mm`, `2 * L`, `quaternion`.
 fn is_word(value: &str) -> bool {
     let plain = |c: char| c.is_alphanumeric() || "_-.+ */()^·⋅×÷−°⁻".contains(c);
     let number = value.replace('_', "").parse::<f64>().is_ok();
@@ -123,17 +121,17 @@ fn is_word(value: &str) -> bool {
     value.chars().all(plain) && !(number || radix || keyword)
 }
 
-/// A way to one value: keys, and entries of arrays.
+/// One step of the path to a value: a key or an array index.
 #[derive(Clone, Debug)]
 enum To {
     Key(String),
-    /// What it is called in the shown path, and which of the array it is.
+    /// Its name in the displayed path, and its array index.
     Named(String, usize),
     Entry(usize),
 }
 
 impl Change {
-    /// Where it is written.
+    /// Its position.
     fn place(&self) -> std::ops::Range<usize> {
         self.start..self.value
     }
@@ -142,11 +140,11 @@ impl Change {
         let parsed = text::parse_at(source, &self.padded)?;
         match parsed.into_iter().next() {
             Some((_, value)) => Ok(value),
-            None => Err(source.refuse(self.place(), "no value", "PATH=VALUE")),
+            None => Err(source.refuse(self.place(), "missing value", "expected PATH=VALUE")),
         }
     }
 
-    /// All ways that the path means.
+    /// All values that match the path.
     fn resolve(
         &self,
         source: Source<'_>,
@@ -183,17 +181,17 @@ impl Change {
     }
 }
 
-/// What a step starts from.
+/// The start of a step.
 #[derive(Clone, Copy)]
 enum Node<'d> {
     Table(&'d DeTable<'d>),
     Value(&'d DeValue<'d>),
-    /// A key that is not there yet.
+    /// A key that does not exist yet.
     Absent,
 }
 
 impl<'d> Node<'d> {
-    /// Where a step leads; what it could have led to is added to `known`.
+    /// The matches of a step; possible names are added to `known`.
     fn children(self, step: &Step, last: bool, known: &mut Vec<String>) -> Vec<(To, Node<'d>)> {
         match self {
             Self::Table(table) => Self::keys(table, step, last, known),
@@ -240,7 +238,7 @@ impl<'d> Node<'d> {
                 found.push((To::Key(key.to_owned()), Self::Value(value.get_ref())));
             }
         }
-        // Whether a table may have the key is checked with the scene.
+        // Reading the scene checks whether the table allows the key.
         if let (true, true, Step::Name { text, is_pattern: false }) = (found.is_empty(), last, step)
         {
             found.push((To::Key(text.clone()), Self::Absent));
@@ -249,7 +247,7 @@ impl<'d> Node<'d> {
     }
 }
 
-/// The refusal of a step that leads nowhere.
+/// The error of a step without a match.
 fn nothing(
     source: Source<'_>,
     step: &Step,
@@ -269,13 +267,13 @@ fn nothing(
     help += &match some.is_empty() {
         true => "it is a plain value".to_owned(),
         false => {
-            format!("there is {}{}", some.join(", "), if known.len() > 12 { " …" } else { "" })
+            format!("known: {}{}", some.join(", "), if known.len() > 12 { " …" } else { "" })
         }
     };
     source.refuse(place, what, help)
 }
 
-/// Puts a value at a place; where the one before it stood.
+/// Sets a value; returns the position of the previous one.
 fn put<'t>(
     document: &mut DeTable<'t>,
     way: &[To],
@@ -314,7 +312,7 @@ fn put<'t>(
     }
 }
 
-/// The value that a step leads to.
+/// The value that a step refers to.
 fn child<'d, 't>(
     table: Option<&'d mut DeTable<'t>>,
     value: Option<&'d mut DeValue<'t>>,

@@ -1,8 +1,7 @@
-//! `[parameters]`: names for values that stand in a scene more than once, or that are to be varied.
+//! `[parameters]`: named values that a scene uses more than once or that are varied.
 //!
-//! `table => names with their quantities`. A parameter is a number or a text that may name others, in
-//! any order but in no circle. A plain number that a change gives is in the SI unit of the
-//! parameter's dimension in the file.
+//! `table => names with their quantities`. A parameter is a number or a text that may refer to others in any order,
+//! without cycles. A change to a plain number is in the SI unit of the parameter's dimension in the file.
 
 use std::collections::VecDeque;
 
@@ -23,7 +22,7 @@ pub struct Parameter {
     pub unit: String,
     /// The line, from 1, in the scene file.
     pub(crate) line: Option<usize>,
-    /// Whether anything in the scene names it.
+    /// Whether anything in the scene refers to it.
     pub(crate) used: bool,
 }
 
@@ -31,14 +30,14 @@ pub struct Parameter {
 struct Row<'t> {
     name: &'t str,
     value: Value<'t>,
-    /// The rows that its text names.
+    /// The rows that its text refers to.
     needs: Vec<usize>,
 }
 
-/// Reads the parameters of a scene. `before` is what they are without the changes.
+/// Reads the parameters of a scene. `before` are their values without the changes.
 ///
 /// # Errors
-/// Where a name or a value is none, names nothing or stands in a circle.
+/// Invalid names or values, unknown references and cycles.
 pub(crate) fn read(root: &Table<'_>, before: Option<&Scope>) -> Result<Scope, SceneError> {
     let Some(value) = root.value("parameters") else { return Ok(Scope::default()) };
     let table = value.labelled("a table of names and their values", "[parameters]")?;
@@ -59,7 +58,7 @@ pub(crate) fn read(root: &Table<'_>, before: Option<&Scope>) -> Result<Scope, Sc
     }
     for row in order(&rows)? {
         let Row { name, value, .. } = &rows[row];
-        // What a parameter names is known by now.
+        // Everything that a parameter refers to is known by now.
         let source = Source { scope: Some(&scope), ..value.source };
         let within = Value { source, key: value.key.clone(), owner: value.owner.clone(), ..*value };
         let mut quantity = Measure.read(&within)?;
@@ -71,7 +70,7 @@ pub(crate) fn read(root: &Table<'_>, before: Option<&Scope>) -> Result<Scope, Sc
     Ok(scope)
 }
 
-/// The parameters with what they came to.
+/// The parameters with their values.
 pub(crate) fn all(root: &Table<'_>, scope: &Scope) -> Vec<Parameter> {
     let table = root.value("parameters");
     let table = table.and_then(|value| value.labelled("a table", "[parameters]").ok());
@@ -93,7 +92,7 @@ pub(crate) fn all(root: &Table<'_>, scope: &Scope) -> Vec<Parameter> {
     parameters
 }
 
-/// The rows in an order in which each comes after those that it needs.
+/// The rows ordered by dependency.
 fn order(rows: &[Row<'_>]) -> Result<Vec<usize>, SceneError> {
     let mut needed_by = vec![Vec::new(); rows.len()];
     let mut open: Vec<usize> = rows.iter().map(|row| row.needs.len()).collect();
@@ -119,15 +118,15 @@ fn order(rows: &[Row<'_>]) -> Result<Vec<usize>, SceneError> {
     }
 }
 
-/// Names of a circle that are shown.
+/// Most names of a cycle in a message.
 const SHOWN: usize = 8;
 
-/// The refusal of parameters that need each other; `first` leads into the circle.
+/// The error of parameters that depend on each other; `first` leads into the cycle.
 fn circle(rows: &[Row<'_>], open: &[usize], first: usize) -> SceneError {
     let mut seen = vec![None; rows.len()];
     let mut way = Vec::new();
     let mut row = first;
-    // Each row that is left needs one that is left.
+    // Each remaining row depends on a remaining row.
     while seen[row].is_none() {
         seen[row] = Some(way.len());
         way.push(row);
@@ -140,8 +139,12 @@ fn circle(rows: &[Row<'_>], open: &[usize], first: usize) -> SceneError {
         shown.push("…".into());
     }
     shown.push(quoted(rows[row].name));
-    let problem = format!("is in a circle: {}", shown.join(" needs "));
-    rows[row].value.refuse_with(&problem, "a parameter is a number, or follows from others")
+    let problem = format!("is part of a cycle: {}", shown.join(" needs "));
+    rows[row].value.refuse_with(
+        &problem,
+        "give one of them a value that does not depend on the \
+                                           others",
+    )
 }
 
 fn quoted(name: &str) -> String {
@@ -151,21 +154,19 @@ fn quoted(name: &str) -> String {
 fn wrong_name(table: &Table<'_>, name: &str, fault: NameFault) -> SceneError {
     let (problem, help) = match fault {
         NameFault::NoWord => (
-            "is no name for a parameter",
-            "letters, digits and `_`, no digit first; not `inf` or `nan`".into(),
+            "is not a valid parameter name",
+            "use letters, digits and `_`, no digit first; not `inf` or `nan`".into(),
         ),
         NameFault::Unit => (
             "has the name of a unit",
-            format!(
-                "another name, e.g. `{name}_1`: in a value `{name}` is the unit wherever it stands"
-            ),
+            format!("use another name, e.g. `{name}_1`; in a value `{name}` is always the unit"),
         ),
-        NameFault::Constant => ("is the number π in every value", "another name".into()),
+        NameFault::Constant => ("is reserved for the number π", "use another name".into()),
     };
     table.refuse_key(name, problem, help)
 }
 
-/// The refusal of a change of a parameter that the file does not have.
+/// The error of a change of an unknown parameter.
 fn unknown(
     source: Source<'_>,
     place: std::ops::Range<usize>,
@@ -177,11 +178,11 @@ fn unknown(
         None => String::new(),
     };
     let some: Vec<_> = known.iter().take(12).map(|name| shortened(name)).collect();
-    help += &format!("[parameters] has {}", some.join(", "));
+    help += &format!("known parameters: {}", some.join(", "));
     source.refuse(place, format!("the scene has no parameter `{}`", shortened(name)), help)
 }
 
-/// What a change gives a parameter that was something else in the file.
+/// The changed value of a parameter, in the dimension that it has in the file.
 fn kept(
     value: &Value<'_>,
     now: Quantity,
@@ -194,7 +195,7 @@ fn kept(
     if now.dimension != before.dimension {
         let problem = format!("is a value in {}", now.dimension);
         let help =
-            format!("in the file it is one in {}, which a plain number is, too", before.dimension);
+            format!("expected a value in {}, as in the file, or a plain number", before.dimension);
         return Err(value.refuse_with(&problem, help));
     }
     Ok(now)

@@ -1,7 +1,7 @@
-//! All numbers of a scene by their paths: what a change may give otherwise.
+//! All numbers of a scene by their paths: the values that a change can replace.
 //!
-//! `(tables, what was read) => path, value, unit`: the values of `[parameters]`, then in the order of the file
-//! within a table. Listed is what is written, not what a key would be without being written.
+//! `(tables, what was read) => path, value, unit`: the values of `[parameters]`, then in the order of the file within a
+//! table. Only written values are listed, no defaults.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use crate::written::Log;
 /// A number that is written in a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneNumber {
-    /// The way to it, as a change names it: `body.cart.mass`, `joint.pivot.at[1]`.
+    /// Its path, as used in a change: `body.cart.mass`, `joint.pivot.at[1]`.
     pub path: String,
     /// \[[`unit`](Self::unit)\] its value.
     pub value: f64,
@@ -58,7 +58,7 @@ fn value(of: &Spanned<DeValue<'_>>, way: &mut Vec<To>, add: &mut impl FnMut(&[To
         DeValue::Array(array) => {
             for (i, entry) in array.iter().enumerate() {
                 way.push(match entry.get_ref() {
-                    // Of a kind of which there are many, by name or by number from 1.
+                    // An entry of a list of tables, by name or by number from 1.
                     DeValue::Table(one) => {
                         let name = one.get("name").and_then(|name| name.get_ref().as_str());
                         To::Named(name.map_or_else(|| (i + 1).to_string(), str::to_owned), i)

@@ -1,22 +1,22 @@
-//! What is written before the `=` of a change: the way to a value of a scene.
+//! The left side of a change: the path to a value of a scene.
 //!
-//! `body.cart.mass, joint."base 1".at[2], joint.leg*.stiffness => segments with their places`. A segment with a
-//! point, an equals sign or a bracket stands in quotes, in which `*` and `?` are letters; elsewhere they
-//! stand for any letters and for any one.
+//! `body.cart.mass, joint."base 1".at[2], joint.leg*.stiffness => segments with their places`. A segment with a dot, an
+//! equals sign or a bracket is quoted; within quotes `*` and `?` are literal, elsewhere they match any letters and any
+//! single letter.
 
 use std::ops::Range;
 
 use crate::error::{SceneError, Source};
 use crate::parameters::pattern::is_of;
 
-/// A step on the way.
+/// A step of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Step {
     /// Into a table, by key or by name.
     Name {
-        /// As it is written, without quotes.
+        /// The text without quotes.
         text: String,
-        /// Whether `*` and `?` stand for letters.
+        /// Whether `*` and `?` are wildcards.
         is_pattern: bool,
     },
     /// Into an array, from 0.
@@ -24,7 +24,7 @@ pub(crate) enum Step {
 }
 
 impl Step {
-    /// Whether a name is meant.
+    /// Whether a name matches.
     pub(crate) fn fits(&self, name: &str) -> bool {
         match self {
             Self::Name { text, is_pattern: false } => text == name,
@@ -34,13 +34,13 @@ impl Step {
     }
 }
 
-/// A step with its place.
+/// A step with its position.
 pub(crate) type Placed = (Step, Range<usize>);
 
-const HELP: &str = "a change is PATH=VALUE, e.g. body.cart.mass=1.2, joint.pivot.at[1]=0.5, \
-                    joint.*.stiffness=1e6 or step=20us; a name with a point in it stands in quotes";
+const HELP: &str = "expected PATH=VALUE, e.g. body.cart.mass=1.2, joint.pivot.at[1]=0.5, \
+                    joint.*.stiffness=1e6 or step=20us; put a name that contains a dot in quotes";
 
-/// Reads the path of a change; where its value begins.
+/// Reads the path of a change; also returns the start of its value.
 pub(crate) fn read(source: Source<'_>) -> Result<(Vec<Placed>, usize), SceneError> {
     let text = source.text;
     let refuse = |place: usize, what: &str| Err(source.refuse(place..text.len(), what, HELP));
@@ -50,7 +50,7 @@ pub(crate) fn read(source: Source<'_>) -> Result<(Vec<Placed>, usize), SceneErro
         let (name, length, is_quoted) = match rest.strip_prefix('"') {
             Some(quoted) => match quoted.find('"') {
                 Some(end) => (&quoted[..end], end + 2, true),
-                None => return refuse(place, "a quote that is not closed"),
+                None => return refuse(place, "unclosed quote"),
             },
             None => {
                 let end = rest.find(['.', '[', '=', '"']).unwrap_or(rest.len());
@@ -58,7 +58,7 @@ pub(crate) fn read(source: Source<'_>) -> Result<(Vec<Placed>, usize), SceneErro
             }
         };
         if name.is_empty() {
-            return refuse(place, "a part of the path is empty");
+            return refuse(place, "empty path segment");
         }
         let is_pattern = !is_quoted && name.contains(['*', '?']);
         steps.push((Step::Name { text: name.into(), is_pattern }, place..place + length));
@@ -67,7 +67,7 @@ pub(crate) fn read(source: Source<'_>) -> Result<(Vec<Placed>, usize), SceneErro
             let inner = &text[place + 1..];
             let end = inner.find(']').unwrap_or(inner.len());
             let Ok(entry) = inner[..end].trim().parse() else {
-                return refuse(place, "an entry of an array is a whole number from 0 in brackets");
+                return refuse(place, "an array index must be a whole number from 0 in brackets");
             };
             let next = (place + end + 2).min(text.len());
             steps.push((Step::Entry(entry), place..next));
@@ -78,8 +78,8 @@ pub(crate) fn read(source: Source<'_>) -> Result<(Vec<Placed>, usize), SceneErro
         match rest.trim_start().chars().next() {
             Some('.') if blank == 0 => place += 1,
             Some('=') => return Ok((steps, place + blank + 1)),
-            None => return refuse(place, "no value follows the path"),
-            Some(_) => return refuse(place, "neither a point nor an equals sign follows"),
+            None => return refuse(place, "missing `=VALUE` after the path"),
+            Some(_) => return refuse(place, "expected `.` or `=`"),
         }
     }
 }
@@ -120,11 +120,11 @@ mod tests {
             ("", 1, "empty"),
             ("=1", 1, "empty"),
             ("body..mass=1", 6, "empty"),
-            ("body.cart.mass", 15, "no value"),
-            ("body.\"cart=1", 6, "not closed"),
+            ("body.cart.mass", 15, "missing `=VALUE`"),
+            ("body.\"cart=1", 6, "unclosed"),
             ("gravity[a]=1", 8, "whole number"),
             ("gravity[1=1", 8, "whole number"),
-            ("body.\"cart\"mass=1", 12, "neither"),
+            ("body.\"cart\"mass=1", 12, "expected `.`"),
         ] {
             let error = read(Source::of("--set", text)).unwrap_err();
             assert_eq!(error.column(), Some(column), "{text}: {error}");

@@ -1,11 +1,11 @@
-//! Patterns of names: `*` stands for any letters, `?` for one.
+//! Name patterns: `*` matches any letters, `?` one.
 
-/// Whether a name is of a pattern; in time of the product of their lengths.
+/// Whether a name matches a pattern, in time proportional to the product of their lengths.
 #[must_use]
 pub fn is_of(pattern: &str, name: &str) -> bool {
     let [pattern, name] = [pattern, name].map(|text| text.chars().collect::<Vec<_>>());
     let (mut at, mut from) = (0, 0);
-    // The last star, and the letters that it took.
+    // The last `*`, and the letters that it matched.
     let mut star: Option<(usize, usize)> = None;
     while from < name.len() {
         if at < pattern.len() && pattern[at] == '*' {
@@ -14,7 +14,7 @@ pub fn is_of(pattern: &str, name: &str) -> bool {
         } else if at < pattern.len() && (pattern[at] == '?' || pattern[at] == name[from]) {
             (at, from) = (at + 1, from + 1);
         } else if let Some((place, taken)) = star {
-            // It takes one more.
+            // Match one more letter.
             star = Some((place, taken + 1));
             (at, from) = (place + 1, taken + 1);
         } else {

@@ -1,8 +1,8 @@
-//! The way back from the plane to the world: models, read-outs and what they show.
+//! Conversion from the plane to the world: models, read-outs and their values.
 //!
 //! `model of the plane => the same elements in the world's axes; read-out => read-out of the plane;
-//! reading of the plane => reading`. The model in the world is what states in the world go with:
-//! energies, tensions and forces of a planar run are those of its elements there.
+//! reading of the plane => reading`. States in the world belong to the model in the world: energies, tensions and
+//! forces of a planar run are those of its elements there.
 
 use dbd_kernel::elements::input::{Input, InputKind};
 use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
@@ -16,8 +16,8 @@ use crate::planar::Planar;
 use crate::runtime::SceneModel;
 
 impl Planar {
-    /// A model of the plane, this one or a rounding of it, in the world's axes. `whole` is the spatial
-    /// model, of whose bodies the moments are that the plane does not know.
+    /// A model of the plane, this one or a rounding of it, in the world's axes. `whole` is the spatial model, which has
+    /// the moments of inertia that the plane lacks.
     #[must_use]
     pub fn in_world(&self, whole: &SceneModel<F64>, flat: &SceneModel<F64>) -> SceneModel<F64> {
         let plane = &self.plane;
@@ -43,21 +43,21 @@ impl Planar {
             torsions: flat.torsions.iter().map(torsion).collect(),
             loads: flat.loads.iter().map(load).collect(),
             inputs: flat.inputs.iter().map(input).collect(),
-            // What they read is said in the world's axes there.
+            // There the sources read in the world's axes.
             sources: whole.sources.clone(),
             laws: whole.laws.clone(),
             ..flat.clone()
         }
     }
 
-    /// A state in the plane as one in the world, bodies in their order.
+    /// Converts a state in the plane to the world, bodies in order.
     pub fn states_outward(&self, states: &mut [BodyState<F64>]) {
         for (row, state) in states.iter_mut().enumerate() {
             *state = self.plane.state_outward(row, state);
         }
     }
 
-    /// A read-out of the scene as one of the model in the plane.
+    /// Converts a read-out of the scene to the model in the plane.
     #[must_use]
     pub fn readout(&self, readout: &Readout<F64>) -> Readout<F64> {
         let flat = |body: BodyIndex, point| {
@@ -74,7 +74,7 @@ impl Planar {
         }
     }
 
-    /// A source of the scene as one of the model in the plane.
+    /// Converts a source of the scene to the model in the plane.
     pub(crate) fn source(&self, source: &Source<F64>) -> Source<F64> {
         let SourceLaw::Over { sensor, weights, offset } = source.law else { return *source };
         let readout = match sensor {
@@ -95,7 +95,7 @@ impl Planar {
         Source { law, ..*source }
     }
 
-    /// What a read-out of the scene shows, from what that of the plane shows.
+    /// The value of a read-out of the scene, from the value in the plane.
     #[must_use]
     pub fn reading(&self, readout: &Readout<F64>, reading: Reading<f64>) -> Reading<f64> {
         let plane = &self.plane;
@@ -113,7 +113,7 @@ impl Planar {
         }
     }
 
-    /// A body with the mass and the moment about the normal that the plane has.
+    /// A body with the mass and the moment about the normal of the planar one.
     fn body(&self, row: usize, flat: &Body<f64>, whole: &Body<f64>) -> Body<f64> {
         let normal = self.plane.of_body_outward(row, Vec3::new(0.0, 0.0, 1.0));
         let mut inertia = whole.inertia.to_f64();

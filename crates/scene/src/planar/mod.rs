@@ -1,4 +1,4 @@
-//! A scene in its plane: the model that steps there and the way back to the world.
+//! A scene in its plane: the planar model and the conversion back to the world.
 //!
 //! `state or reading in the plane <=> in the world`.
 
@@ -17,9 +17,8 @@ use crate::runtime::SceneModel;
 pub struct Planar {
     /// The model in the plane z = 0 of its own axes.
     pub model: SceneModel<F64>,
-    /// Where that lies in the world.
+    /// The position of that plane in the world.
     pub plane: Plane,
-    /// Rows of the groups that are as stiff at rest, but not in every other state: those whose elements
-    /// did not lie in the plane.
+    /// Rows of the groups that are equally stiff at rest only, because their elements did not lie in the plane.
     pub at_rest: Vec<usize>,
 }

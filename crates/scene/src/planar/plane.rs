@@ -1,7 +1,7 @@
-//! A plane in space, and bodies in it: what leads from the world to the plane and back.
+//! A plane in space with its bodies: conversion between the world and the plane.
 //!
-//! `world vectors, orientations <=> those of the plane's own axes, its normal their z`. Where the
-//! normal is an axis of the world or of a body the way is an exchange of components, without rounding.
+//! `world vectors, orientations <=> those of the plane's own axes, its normal their z`. Where the normal is an axis of
+//! the world or of a body the conversion permutes components, without rounding.
 
 use dbd_kernel::vector::Rotation;
 use dbd_kernel::{BodyState, F64, Quaternion, Vec3};
@@ -9,16 +9,16 @@ use dbd_kernel::{BodyState, F64, Quaternion, Vec3};
 use crate::direction::{least_aligned, normals, unit};
 use crate::orientation::of_axes;
 
-/// Directions nearer than this (the sine of their angle) are one.
+/// Directions are equal if the sine of their angle is below this.
 pub(crate) const ALIKE: f64 = 1e-9;
 
-/// A turn by a half about x: z becomes −z.
+/// Half a revolution about x: z becomes −z.
 const FLIP: Quaternion<f64> = Quaternion::new(0.0, 1.0, 0.0, 0.0);
 
-/// The turn that takes x to y, y to z, z to x.
+/// The rotation that maps x to y, y to z, z to x.
 const ONWARD: Quaternion<f64> = Quaternion::new(0.5, 0.5, 0.5, 0.5);
 
-/// Axes whose z is the normal, as a turn from them to where the normal was given.
+/// Axes whose z is the normal, as a rotation from them to the axes in which the normal is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Axes {
     turn: Quaternion<f64>,
@@ -26,7 +26,7 @@ pub(crate) struct Axes {
 }
 
 impl Axes {
-    /// The axes of a unit normal. One that is nearly a coordinate axis, or its opposite, is taken for it.
+    /// The axes of a unit normal. A normal close to ± a coordinate axis is replaced by it.
     pub(crate) fn of(normal: Vec3<f64>) -> Self {
         let [x, y, z] = normal.to_f64();
         let along = |others: [f64; 2]| others.iter().all(|other| other.abs() <= ALIKE);
@@ -61,13 +61,13 @@ impl Axes {
     }
 }
 
-/// The plane of a scene, and how each body's own axes lie in it.
+/// The plane of a scene, and the orientation of each body's axes in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
     axes: Axes,
-    /// \[m\] from the world's origin along the normal.
+    /// \[m\] distance from the world's origin along the normal.
     height: f64,
-    /// \[m\] how large the scene is.
+    /// \[m\] size of the scene.
     size: f64,
     /// Per body the axes whose z is the normal.
     bodies: Vec<Axes>,
@@ -78,7 +78,7 @@ impl Plane {
         Self { axes, height, size, bodies: Vec::new() }
     }
 
-    /// Adds the next body, whose own axes have this normal.
+    /// Adds the next body; the normal is given in its own axes.
     pub(crate) fn add_body(&mut self, normal_b: Vec3<f64>) {
         self.bodies.push(Axes::of(normal_b));
     }
@@ -95,7 +95,7 @@ impl Plane {
         self.height
     }
 
-    /// What messages call it: `z = 0`, or where it lies and what it is normal to.
+    /// Its name in messages: `z = 0`, or its normal and distance.
     #[must_use]
     pub fn name(&self) -> String {
         let normal = self.normal().to_f64();
@@ -113,45 +113,45 @@ impl Plane {
         }
     }
 
-    /// A vector of the world in the plane's axes.
+    /// Converts a vector from the world to the plane's axes.
     #[must_use]
     pub fn inward(&self, v: Vec3<f64>) -> Vec3<f64> {
         self.axes.inward(v)
     }
 
-    /// A vector of the plane's axes in the world.
+    /// Converts a vector from the plane's axes to the world.
     #[must_use]
     pub fn outward(&self, v: Vec3<f64>) -> Vec3<f64> {
         self.axes.outward(v)
     }
 
-    /// A place \[m\] of the world in the plane's axes; z is how far it is off.
+    /// Converts a point \[m\] from the world to the plane's axes; z is its distance from the plane.
     #[must_use]
     pub fn place_inward(&self, place_w: Vec3<f64>) -> Vec3<f64> {
         let place = self.inward(place_w);
         Vec3::new(place.x, place.y, place.z - self.height)
     }
 
-    /// A place \[m\] of the plane's axes in the world.
+    /// Converts a point \[m\] from the plane's axes to the world.
     #[must_use]
     pub fn place_outward(&self, place: Vec3<f64>) -> Vec3<f64> {
         self.outward(Vec3::new(place.x, place.y, place.z + self.height))
     }
 
-    /// A vector of the axes of body `row` in those of the body in the plane; the world's for others.
+    /// Converts a vector from the axes of body `row` to those of the body in the plane; other rows mean the world.
     #[must_use]
     pub fn of_body_inward(&self, row: usize, v: Vec3<f64>) -> Vec3<f64> {
         self.bodies.get(row).unwrap_or(&self.axes).inward(v)
     }
 
-    /// A vector of the axes of body `row` in the plane in its own.
+    /// Converts a vector from the axes of body `row` in the plane to its own.
     #[must_use]
     pub fn of_body_outward(&self, row: usize, v: Vec3<f64>) -> Vec3<f64> {
         self.bodies.get(row).unwrap_or(&self.axes).outward(v)
     }
 
-    /// A place of body `row` \[m\], from its centre of mass in its own axes, in those of the body in
-    /// the plane; of the world as [`Self::place_inward`].
+    /// Converts a point of body `row` \[m\], from its centre of mass in its own axes, to those of the body in the
+    /// plane; for the world as [`Self::place_inward`].
     #[must_use]
     pub fn point_inward(&self, row: usize, point: Vec3<f64>) -> Vec3<f64> {
         if row < self.bodies.len() {
@@ -161,15 +161,15 @@ impl Plane {
         }
     }
 
-    /// How body `b` stands to body `a`, or its inverse, in the plane's turns as it is between their own axes.
+    /// The rotation of body `b` relative to body `a`, or its inverse, converted from the plane to their own axes.
     #[must_use]
     pub fn turn_outward(&self, a: usize, b: usize, turn: Quaternion<f64>) -> Quaternion<f64> {
         let own = |row: usize| self.bodies.get(row).unwrap_or(&self.axes).turn;
         own(b).product(turn).product(own(a).conjugate())
     }
 
-    /// Whether a state in the world leaves the plane by more than `share` of its size: \[m\] of a
-    /// place, of what else it has its own.
+    /// Whether a state in the world leaves the plane by more than the fraction `share`: positions relative to the size
+    /// of the scene, other quantities relative to their own.
     #[must_use]
     pub fn leaves(&self, row: usize, state: &BodyState<F64>, share: f64) -> bool {
         let length = |v: Vec3<f64>| libm::sqrt(v.dot(v));
@@ -184,7 +184,7 @@ impl Plane {
             || libm::hypot(spin.x, spin.y) > share * length(spin)
     }
 
-    /// The state of body `row` in the world as it is in the plane: what leaves the plane is left out.
+    /// Converts the state of body `row` from the world to the plane; out-of-plane components are dropped.
     #[must_use]
     pub fn state_inward(&self, row: usize, state: &BodyState<F64>) -> BodyState<F64> {
         let body = self.bodies.get(row).map_or(Quaternion::IDENTITY, |body| body.turn);
@@ -199,7 +199,7 @@ impl Plane {
         )
     }
 
-    /// The state of body `row` in the plane as it is in the world.
+    /// Converts the state of body `row` from the plane to the world.
     #[must_use]
     pub fn state_outward(&self, row: usize, state: &BodyState<F64>) -> BodyState<F64> {
         let body = self.bodies.get(row).map_or(Quaternion::IDENTITY, |body| body.turn);
@@ -213,7 +213,7 @@ impl Plane {
     }
 }
 
-/// What of a turn is about z, scalar first, unit; kept to the bit where it is about nothing else.
+/// The rotation about z within a rotation, scalar first, unit; exact to the bit for a rotation about z.
 fn about_z(turn: Quaternion<f64>) -> [f64; 4] {
     let Quaternion { w, v } = turn;
     if v.x == 0.0 && v.y == 0.0 {
@@ -221,7 +221,7 @@ fn about_z(turn: Quaternion<f64>) -> [f64; 4] {
     }
     match unit(Vec3::new(w, 0.0, v.z)) {
         Some(settled) => [settled.x, 0.0, 0.0, settled.z],
-        // Nothing that stands for a turn: what looks at it next says so.
+        // Not a valid rotation; the caller's checks report it.
         None => [w, 0.0, 0.0, v.z],
     }
 }
@@ -267,7 +267,7 @@ mod tests {
         let normal = unit(Vec3::new(2.0, -1.0, 0.5)).unwrap();
         let turn = Axes::of(normal);
         let mut plane = Plane::new(turn, 0.3, 1.0);
-        // A body that lies on its side: its own x is the normal.
+        // A body lying on its side: its own x is the normal.
         let flat = BodyState::<F64>::from_f64(
             [0.4, -0.2, 0.0],
             [libm::cos(0.4), 0.0, 0.0, libm::sin(0.4)],

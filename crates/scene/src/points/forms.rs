@@ -1,6 +1,6 @@
-//! The forms of a point: coordinates, or how it lies to other points.
+//! The forms of a point: coordinates, or a position relative to other points.
 //!
-//! `value => place`, world. Computed with 32 digits and rounded once, where the place is used.
+//! `value => place`, world. Computed with 32 digits and rounded once, where the point is used.
 
 use crate::assembly::WORLD;
 use crate::direction::least_aligned;
@@ -35,10 +35,10 @@ const FORMS: &str = "[x, y, z] in m, the name of a point, or one of { from = \"A
     { from = [\"A\", \"B\"], distances = [m, m], side = \"left\" }, \
     { from = \"A\", about = \"O\", axis = [x, y, z], angle = rad } and { frame = \"body\", at = [x, y, z] }";
 
-/// \[m\] Greatest coordinate, as everywhere in a scene.
+/// \[m\] Largest coordinate, as everywhere in a scene.
 const GREATEST: f64 = 1e150;
 
-/// A circle that misses another by less than this share of its radius touches it.
+/// Relative gap below which two circles touch.
 const TOUCHING: f64 = 1e-14;
 
 impl Places {
@@ -50,7 +50,7 @@ impl Places {
     }
 }
 
-/// Reads a point that stands on others which are known.
+/// Reads a point that depends on known ones.
 fn read(value: &Value<'_>, places: &Places) -> Result<PreciseVector, SceneError> {
     let place = if value.get().is_table() {
         from_others(&value.table(FORMS)?, places)?.unsigned()
@@ -62,7 +62,7 @@ fn read(value: &Value<'_>, places: &Places) -> Result<PreciseVector, SceneError>
     let within = |number: f64| number.abs() <= GREATEST;
     match place.nearest().to_f64().into_iter().all(within) {
         true => Ok(place),
-        false => Err(value.refuse_with("is out of reach", "coordinates are at most 1e150 m")),
+        false => Err(value.refuse_with("is out of range", "coordinates must not exceed 1e150 m")),
     }
 }
 
@@ -90,16 +90,16 @@ fn from_others(table: &Table<'_>, places: &Places) -> Result<PreciseVector, Scen
         return Ok(from + offset.into());
     }
     if !has(&["direction", "toward", "angle"]) {
-        let help =
-            "`offset`, or `distance` with `direction`, `toward` or `angle`, or `axis` with `angle`";
-        return Err(table.refuse("does not say where it lies from `from`", help));
+        let help = "add `offset`, or `distance` with `direction`, `toward` or `angle`, or \
+             `axis` with `angle`";
+        return Err(table.refuse("has no position relative to `from`", help));
     }
     let direction = if table.has("toward") {
         table.only(&[&["from", "distance", "toward"]])?;
         let toward = table.required("toward", PrecisePlace(places))?;
         (toward - from).unit().ok_or_else(|| {
-            let help = "another point, or a `direction`";
-            table.refuse_value("toward", "is where `from` is", help)
+            let help = "give another point, or a `direction`";
+            table.refuse_value("toward", "coincides with `from`", help)
         })?
     } else if table.has("direction") {
         table.only(&[&["from", "distance", "direction"]])?;
@@ -115,14 +115,14 @@ fn from_others(table: &Table<'_>, places: &Places) -> Result<PreciseVector, Scen
     Ok(from + direction * distance.into())
 }
 
-/// The two places of `from`.
+/// The two points of `from`.
 fn pair(value: &Value<'_>, places: &Places) -> Result<[PreciseVector; 2], SceneError> {
     let entries = value.entries(2, "a point, or an array of two points")?;
     let place = |entry: &Value<'_>| PrecisePlace(places).read(entry);
     Ok([place(&entries[0])?, place(&entries[1])?])
 }
 
-/// A share of the way from one point to another.
+/// A point at a fraction of the distance between two points.
 fn between(
     table: &Table<'_>,
     a: PreciseVector,
@@ -145,21 +145,21 @@ fn at_distances(
     let normal = normal(table, "normal")?;
     let apart = (b - a).length();
     let Some(along) = (b - a).unit() else {
-        let help = "two different points: distances from one point are a whole circle";
-        return Err(table.refuse_value("from", "names one place twice", help));
+        let help = "give two different points";
+        return Err(table.refuse_value("from", "names two coincident points", help));
     };
     let Some([_, left]) = along.normals(-normal) else {
-        let help = "a direction across the line between the two points";
-        return Err(table.refuse_value("normal", "lies along that line", help));
+        let help = "give a direction not parallel to the line between the two points";
+        return Err(table.refuse_value("normal", "is parallel to that line", help));
     };
     let [first, second] = [p, q].map(Precise::from);
     let on_line = (first * first - second * second + apart * apart) / (apart + apart);
     let square = first * first - on_line * on_line;
     if square.nearest() < -TOUCHING * p.max(q) * p.max(q) {
         let apart = apart.nearest();
-        let problem = format!("do not meet: the points are {apart:?} m apart");
+        let problem = format!("have no point in common: the points are {apart:?} m apart");
         let help = format!(
-            "two distances whose sum is at least that, {:?} m, and whose difference is at most that",
+            "give two distances whose sum is at least {:?} m and whose difference is at most that",
             p + q
         );
         return Err(table.refuse_value("distances", &problem, help));
@@ -168,7 +168,7 @@ fn at_distances(
     Ok(a + along * on_line + left * off)
 }
 
-/// A point turned about an axis.
+/// A point rotated about an axis.
 fn turned(
     table: &Table<'_>,
     from: PreciseVector,
@@ -197,7 +197,7 @@ fn in_frame(table: &Table<'_>, places: &Places) -> Result<PreciseVector, SceneEr
     Ok(origin + PreciseVector::from(at).along(axes))
 }
 
-/// The frame of a body that is known.
+/// The frame of a known body.
 pub(crate) fn body_frame(value: &Value<'_>, places: &Places) -> Result<Frame, SceneError> {
     let name = Text::Name.read(value)?;
     if name == WORLD {
@@ -215,12 +215,13 @@ fn of_points(
     let place = |entry: &Value<'_>| PrecisePlace(places).read(entry);
     let [origin, x, y] = [place(&entries[0])?, place(&entries[1])?, place(&entries[2])?];
     let axes = (x - origin).unit().and_then(|x| x.normals(y - origin).map(|[y, z]| [x, y, z]));
-    let help = "three points that are not on a line: origin, one on the x axis, one in the plane of x and y";
-    let axes = axes.ok_or_else(|| value.refuse_with("spans no plane", help))?;
+    let help = "give three points that are not collinear: the origin, one on the x axis, one in \
+        the xy plane";
+    let axes = axes.ok_or_else(|| value.refuse_with("does not span a plane", help))?;
     Ok((origin, axes))
 }
 
-/// A direction, the world's z where it is not given.
+/// A direction; the world's z by default.
 fn normal(table: &Table<'_>, key: &str) -> Result<PreciseVector, SceneError> {
     match table.has(key) {
         true => precise_direction(table, key),
@@ -228,24 +229,25 @@ fn normal(table: &Table<'_>, key: &str) -> Result<PreciseVector, SceneError> {
     }
 }
 
-/// The axis from which an angle about `normal` counts and the one at a quarter turn.
+/// The axis from which an angle about `normal` is measured, and the one at 90°.
 fn across(table: &Table<'_>, normal: PreciseVector) -> Result<[PreciseVector; 2], SceneError> {
     let reference = match table.has("reference") {
         true => precise_direction(table, "reference")?,
         false => least_aligned(normal.nearest()).into(),
     };
     normal.normals(reference).ok_or_else(|| {
-        let help = "a direction across the normal, e.g. one normal to it";
+        let help = "give a direction not parallel to the normal, e.g. one perpendicular to \
+            it";
         table.refuse_value("reference", "is parallel to the normal", help)
     })
 }
 
-/// A direction at unit length.
+/// A unit direction.
 pub(crate) fn precise_direction(table: &Table<'_>, key: &str) -> Result<PreciseVector, SceneError> {
     let Some(value) = table.value(key) else {
         return Err(table.missing(key, &Direction.expected()));
     };
-    // Refused like any other direction; its length is then brought to 1 with all digits.
+    // Checked like any other direction, then normalised with all digits.
     Direction.read(&value)?;
     let numbers = Direction::numbers(&value)?;
     Ok(PreciseVector::from(numbers).unit().unwrap_or(PreciseVector::ZERO))

@@ -1,4 +1,4 @@
-//! What stands where a direction is wanted: three numbers, or two points, from one to the other.
+//! A direction in a scene: three numbers, or two points.
 
 use dbd_kernel::Vec3;
 

@@ -1,8 +1,7 @@
-//! `[points]`: named places, and where a name may stand for one.
+//! `[points]`: named points, and the values that may refer to them.
 //!
-//! `table => places`, world, at the initial pose. Points and bodies may stand on each other: a point in a
-//! body's frame, a body between two points. They are read in an order in which each stands on what
-//! is there.
+//! `table => places`, world, at the initial pose. Points and bodies may depend on each other: a point in a body's
+//! frame, a body between two points. They are read in order of dependency.
 
 mod forms;
 mod heading;
@@ -22,6 +21,6 @@ pub(crate) use places::{Frame, Places};
 /// The points of a scene as they are written, in their order.
 pub(crate) fn written<'t>(root: &Table<'t>) -> Result<Vec<(String, Value<'t>)>, SceneError> {
     let Some(value) = root.value("points") else { return Ok(Vec::new()) };
-    let expected = "a table of names and places: A = [x, y, z]";
+    let expected = "a table of named points: A = [x, y, z]";
     value.table(expected)?.called("[points]").named()
 }

@@ -1,7 +1,7 @@
-//! The order in which points and bodies are read, so that each stands on what is there.
+//! The order in which points and bodies are read: by dependency.
 //!
-//! `names in tables => order, or a circle`. That of the file, points first, but for what stands on
-//! something further below. Names of nothing are left to those that read them.
+//! `names in tables => order, or a cycle`. The order is that of the file, points first, except where one depends on a
+//! later one. Unknown names are left to the readers.
 
 use std::collections::BTreeMap;
 
@@ -18,10 +18,10 @@ pub(crate) enum Node {
     Body(usize),
 }
 
-/// Things that a circle names; of a longer one the first.
+/// Most items of a cycle in a message.
 const SHOWN: usize = 6;
 
-/// All points and bodies, those first that others stand on.
+/// All points and bodies, ordered by dependency.
 pub(crate) fn order(
     points: &[(String, Value<'_>)],
     bodies: &[(String, Table<'_>)],
@@ -46,7 +46,7 @@ pub(crate) fn order(
     let mut ordered = Vec::new();
     let mut is_done = BTreeMap::new();
     for node in all {
-        // Depth first with a stack of our own: a chain may have thousands of points.
+        // Depth first with an explicit stack: a chain may have thousands of points.
         let mut stack = Vec::new();
         let mut next = Some(node).filter(|node| !is_done.contains_key(node));
         while let Some(node) = next.take() {
@@ -76,13 +76,13 @@ pub(crate) fn order(
     Ok(ordered)
 }
 
-/// A name and what it is to be of.
+/// A name with its expected kind.
 enum Name {
     Point(String),
     Body(String),
 }
 
-/// What a point stands on.
+/// The names that a point depends on.
 fn of_point(value: &Value<'_>) -> Vec<Name> {
     let mut names = Vec::new();
     let DeValue::Table(table) = value.get() else {
@@ -101,7 +101,7 @@ fn of_point(value: &Value<'_>) -> Vec<Name> {
     names
 }
 
-/// What a body stands on.
+/// The names that a body depends on.
 fn of_body(table: &Table<'_>) -> Vec<Name> {
     let mut names = Vec::new();
     if let Some(frame) = table.value("frame").and_then(|value| value.get().as_str()) {
@@ -135,13 +135,13 @@ fn points_in(value: &DeValue<'_>, names: &mut Vec<Name>) {
     }
 }
 
-/// The refusal of things that stand on each other, at the first of them.
+/// The error of a cycle, at its first item.
 fn refuse(
     circle: Vec<Node>,
     points: &[(String, Value<'_>)],
     bodies: &[(String, Table<'_>)],
 ) -> SceneError {
-    // Begins with the one that is first in the file, whichever was met first.
+    // Start with the one that is first in the file.
     let start = |node: &Node| match node {
         Node::Point(row) => points[*row].1.span().start,
         Node::Body(row) => bodies[*row].1.start(),
@@ -157,8 +157,8 @@ fn refuse(
         names.push(format!("{} more", circle.len() - SHOWN));
     }
     names.push(name(&circle[first]));
-    let problem = format!("stands on itself: {}", names.join(" on "));
-    let help = "give one of them a place that does not depend on the others";
+    let problem = format!("depends on itself: {}", names.join(" -> "));
+    let help = "give one of them a position that does not depend on the others";
     match circle[first] {
         Node::Point(row) => points[row].1.refuse_with(&problem, help),
         Node::Body(row) => bodies[row].1.refuse(&problem, help),

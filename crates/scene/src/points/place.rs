@@ -1,4 +1,4 @@
-//! What stands where a place is wanted: three coordinates, or the name of a point.
+//! A point in a scene: three coordinates, or the name of a point.
 
 use std::collections::BTreeMap;
 
@@ -12,10 +12,10 @@ use crate::precise::PreciseVector;
 use crate::shortened::shortened;
 use crate::text::{Kind, Number, Numbers, Value};
 
-/// Names that a refusal shows: more say less.
+/// Most names listed in a message.
 const SHOWN: usize = 12;
 
-/// A place, world, while bodies and points are still read.
+/// A world point, while bodies and points are being read.
 #[derive(Clone, Copy)]
 pub(crate) struct PrecisePlace<'p>(pub(crate) &'p Places);
 
@@ -40,7 +40,7 @@ impl Kind for PrecisePlace<'_> {
     }
 }
 
-/// A place, world.
+/// A world point.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a>(pub(crate) &'a Assembly);
 
@@ -66,8 +66,8 @@ impl Kind for Place<'_> {
     }
 }
 
-/// A place of a body: coordinates in its axes, or a point as the body has it, one of its own ends or a
-/// place in the world at the initial pose.
+/// A point of a body: coordinates in its axes, or a named point: one of its own ends or a point in the world at the
+/// initial pose.
 #[derive(Clone, Copy)]
 pub(crate) struct PlaceOf<'a> {
     pub(crate) assembly: &'a Assembly,
@@ -105,7 +105,7 @@ impl Kind for PlaceOf<'_> {
     }
 }
 
-/// What a name names.
+/// The point of a name.
 fn named(
     points: &BTreeMap<String, Vec3<f64>>,
     name: &str,
@@ -114,7 +114,7 @@ fn named(
     points.get(name).copied().ok_or_else(|| unknown(value, "point", name, points.keys()))
 }
 
-/// The refusal of a name of nothing.
+/// The error of an unknown name.
 pub(super) fn unknown<'n>(
     value: &Value<'_>,
     what: &str,
@@ -122,10 +122,11 @@ pub(super) fn unknown<'n>(
     known: impl IntoIterator<Item = &'n String>,
 ) -> SceneError {
     let known: Vec<&str> = known.into_iter().map(String::as_str).collect();
+    let all = if what == "body" { "bodies" } else { "points" };
     let mut help = match nearest(name, known.iter().copied()) {
-        Some(meant) => format!("did you mean \"{meant}\"? there are "),
+        Some(meant) => format!("did you mean \"{meant}\"? known {all}: "),
         None if known.is_empty() => format!("the scene has no {what}"),
-        None => "there are ".to_owned(),
+        None => format!("known {all}: "),
     };
     let shown: Vec<_> = known.iter().take(SHOWN).map(|name| format!("\"{name}\"")).collect();
     help += &shown.join(", ");

@@ -1,4 +1,4 @@
-//! Where points and bodies are, as far as they are known.
+//! Positions of points and frames of bodies, as far as they are known.
 
 use std::collections::BTreeMap;
 
@@ -6,23 +6,23 @@ use dbd_kernel::Vec3;
 
 use crate::precise::PreciseVector;
 
-/// Where points are, and the frames of bodies, as far as they are known.
+/// Positions of points and frames of bodies, as far as they are known.
 #[derive(Default)]
 pub(crate) struct Places {
     pub(super) points: BTreeMap<String, PreciseVector>,
     pub(super) frames: BTreeMap<String, Frame>,
-    /// The names of all points and of all bodies, those included that are not read yet.
+    /// The names of all points and of all bodies, including those not yet read.
     pub(super) names: [Vec<String>; 2],
 }
 
-/// The frame of a body: a place, axes and how it moves, world.
+/// The frame of a body: origin, axes and velocities, world.
 #[derive(Clone, Copy)]
 pub(crate) struct Frame {
     /// \[m\].
     pub(crate) origin: PreciseVector,
     /// Right-handed unit vectors.
     pub(crate) axes: [PreciseVector; 3],
-    /// The turn that they come from, scalar first.
+    /// The rotation of the axes, scalar first.
     pub(crate) orientation: [f64; 4],
     /// \[m/s\] of the origin.
     pub(crate) velocity: Vec3<f64>,
@@ -31,12 +31,12 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// Where coordinates in it are.
+    /// The world point of coordinates in the frame.
     pub(crate) fn place(&self, at: PreciseVector) -> PreciseVector {
         self.origin + at.along(self.axes)
     }
 
-    /// That of the world.
+    /// The world frame.
     pub(super) fn world() -> Self {
         Self {
             origin: PreciseVector::ZERO,
@@ -49,7 +49,7 @@ impl Frame {
 }
 
 impl Places {
-    /// None known yet, of points and bodies of these names.
+    /// No positions yet, for points and bodies of these names.
     pub(crate) fn new(points: Vec<String>, bodies: Vec<String>) -> Self {
         Self { names: [points, bodies], ..Self::default() }
     }
@@ -59,7 +59,7 @@ impl Places {
         self.frames.insert(body.to_owned(), frame);
     }
 
-    /// The places of all points, rounded once.
+    /// The positions of all points, rounded once.
     pub(crate) fn rounded(&self) -> BTreeMap<String, Vec3<f64>> {
         self.points.iter().map(|(name, place)| (name.clone(), place.nearest())).collect()
     }

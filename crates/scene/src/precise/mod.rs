@@ -1,5 +1,5 @@
-//! Numbers of 32 digits, so that what is computed from points is rounded once: the number in the
-//! model is the double nearest to the exact one, whatever way led to it.
+//! Numbers with 32 digits, so that values computed from points are rounded once: the number in the model is the double
+//! nearest to the exact one, regardless of the calculation.
 //!
 //! `sums of two doubles => sums, products, quotients, roots; sine, cosine, arctangent; vectors`.
 //! Source: Dekker, Numer. Math. 18 (1971) 224; Hida, Li & Bailey, ARITH-15 (2001) 155. Only sums,
@@ -17,7 +17,7 @@ pub(crate) use vector::PreciseVector;
 mod tests {
     use super::*;
 
-    /// A number against one known to 40 digits, in two doubles that were cut from it by another program.
+    /// Compares a number with a 40-digit reference, split into two doubles by another program.
     fn near(found: Precise, high: f64, low: f64) -> bool {
         (found - Precise::new(high, low)).nearest().abs() < 1e-31 * high.abs()
     }
@@ -84,7 +84,7 @@ mod tests {
         }
         assert_eq!(arctangent(Precise::ONE, Precise::ZERO), core::f64::consts::FRAC_PI_2);
         assert_eq!(arctangent(Precise::ZERO, -Precise::ONE), core::f64::consts::PI);
-        // Beyond what a double says of a place in a turn.
+        // Beyond the resolution of an angle in a double.
         let (s, c) = sine_and_cosine(1e300);
         assert!((s.nearest().hypot(c.nearest()) - 1.0).abs() < 1e-12);
     }

@@ -2,12 +2,12 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number of 32 digits.
+/// A number with 32 digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Precise {
     /// The double nearest to it.
     high: f64,
-    /// What that leaves.
+    /// The remainder.
     low: f64,
 }
 
@@ -25,7 +25,7 @@ impl Precise {
         self.high
     }
 
-    /// The square root, 0 of what is not above 0.
+    /// The square root; 0 for numbers ≤ 0.
     pub(crate) fn root(self) -> Self {
         if self.high <= 0.0 {
             return Self::ZERO;
@@ -42,7 +42,7 @@ impl From<f64> for Precise {
     }
 }
 
-/// The rounded sum of two doubles and what rounding took (Knuth).
+/// The rounded sum of two doubles and its rounding error (Knuth).
 fn sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     let b_of_s = s - a;
@@ -63,7 +63,7 @@ fn halves(a: f64) -> (f64, f64) {
     (upper, a - upper)
 }
 
-/// The rounded product of two doubles and what rounding took (Dekker).
+/// The rounded product of two doubles and its rounding error (Dekker).
 fn product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     let ((a1, a2), (b1, b2)) = (halves(a), halves(b));

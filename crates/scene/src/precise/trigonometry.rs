@@ -1,7 +1,7 @@
 //! Sine and cosine of an angle, the angle of a vector.
 //!
-//! An angle given in degrees is a rounded number of radians. Where a double is the nearest to a whole
-//! number of thousandths of a degree, that angle is meant: cos 60° is 0.5.
+//! An angle given in degrees is a rounded number of radians. A double nearest to a whole number of thousandths of a
+//! degree is taken as that angle: cos 60° is 0.5.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -13,7 +13,7 @@ pub(crate) const PI: Precise = Precise::new(core::f64::consts::PI, 1.224_646_799
 /// π/2.
 const QUARTER: Precise = Precise::new(FRAC_PI_2, 6.123_233_995_736_766e-17);
 
-/// \[rad\] Beyond it a double says little of where in a turn it is.
+/// \[rad\] Beyond it a double hardly resolves the angle within a revolution.
 const LARGE: f64 = 1e9;
 
 /// Sine and cosine of an angle \[rad\].
@@ -31,16 +31,16 @@ pub(crate) fn sine_and_cosine(angle: f64) -> (Precise, Precise) {
     of_radians(Precise::from(angle))
 }
 
-/// Sine and cosine of an angle \[rad\] that is that number and no other.
+/// Sine and cosine of exactly this angle \[rad\].
 fn of_radians(angle: Precise) -> (Precise, Precise) {
     let quarters = libm::round(angle.nearest() / FRAC_PI_2);
     turned(quarters, angle - QUARTER * Precise::from(quarters))
 }
 
-/// Those of a number of quarter turns and a rest of at most an eighth.
+/// Sine and cosine of a number of quarter revolutions plus at most an eighth.
 fn turned(quarters: f64, rest: Precise) -> (Precise, Precise) {
     let square = -(rest * rest);
-    // Taylor's series: what is left out is below 1e-34 of the first term.
+    // Taylor series; the truncation error is below 1e-34 of the first term.
     let (mut sine, mut cosine) = (rest, Precise::ONE);
     let (mut odd, mut even) = (rest, Precise::ONE);
     for n in 1..=15_u32 {

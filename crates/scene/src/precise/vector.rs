@@ -1,4 +1,4 @@
-//! Places and directions in space, world.
+//! Points and directions in space, world.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -6,7 +6,7 @@ use dbd_kernel::Vec3;
 
 use crate::precise::Precise;
 
-/// Three numbers of 32 digits.
+/// Three numbers with 32 digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PreciseVector {
     pub(crate) x: Precise,
@@ -21,7 +21,7 @@ impl PreciseVector {
         Vec3::<f64>::axes().map(Self::from)
     }
 
-    /// Each component the double nearest to it.
+    /// Each component rounded to the nearest double.
     pub(crate) fn nearest(self) -> Vec3<f64> {
         Vec3::from_f64([self.x, self.y, self.z].map(Precise::nearest))
     }
@@ -52,7 +52,7 @@ impl PreciseVector {
         self.dot(self).root()
     }
 
-    /// At unit length; `None` where its square is lost or infinite.
+    /// Normalised; `None` where the square of the length underflows or is infinite.
     pub(crate) fn unit(self) -> Option<Self> {
         let length = self.length();
         let inverse = Precise::ONE / length;

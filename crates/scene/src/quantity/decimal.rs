@@ -1,12 +1,12 @@
-//! Numbers as they are written, until their unit is known.
+//! Numbers in decimal text, until their unit is known.
 //!
-//! `(digits, exponent, scale) => f64`. A scale's power of ten and its whole factor are taken in the
-//! decimal text, which is then read once: `20us` is the f64 nearest to 20e-6, the same as `0.02ms`
-//! and `2e-5`; 20.0·1e-6 would be another one. Only a divisor (km/h) or π (deg) rounds a second time.
+//! `(digits, exponent, scale) => f64`. A scale's power of ten and its whole factor are applied to the decimal text,
+//! which is then read once: `20us` is the f64 nearest to 20e-6, the same as `0.02ms`
+//! and `2e-5`; 20.0·1e-6 would differ. Only a divisor (km/h) or π (deg) rounds a second time.
 
 use crate::quantity::unit::Scale;
 
-/// A number ≥ 0 as it is written.
+/// A number ≥ 0 in decimal text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Decimal<'t> {
     /// Digits with at most one point among them.
@@ -14,14 +14,14 @@ pub(super) struct Decimal<'t> {
     exponent: i64,
 }
 
-/// No text is so long that an exponent beyond this would matter.
+/// Largest exponent that can matter for the length of any text.
 const MOST: i64 = 1_000_000_000_000;
 
 impl<'t> Decimal<'t> {
-    /// What a unit without a number counts.
+    /// The number of a unit without one.
     pub(super) const ONE: Decimal<'static> = Decimal { digits: "1", exponent: 0 };
 
-    /// The number at the beginning of a text, and how long it is; `None` where there is none.
+    /// The number at the beginning of a text with its length; `None` without a number.
     pub(super) fn begins(text: &'t str) -> Option<(Self, usize)> {
         let count = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
         let whole = count(text);
@@ -42,7 +42,7 @@ impl<'t> Decimal<'t> {
         Some((Self { digits, exponent }, length + 1 + sign + of_exponent))
     }
 
-    /// So many of a unit in SI; infinite where it is too large to hold.
+    /// The number of units in SI; infinite on overflow.
     pub(super) fn of(self, scale: Scale) -> f64 {
         let exponent = self.exponent + i64::from(scale.ten);
         let read = |digits: &str, exponent: i64| {
@@ -62,7 +62,7 @@ impl<'t> Decimal<'t> {
     }
 }
 
-/// The product of digits, their point left out, and a whole number.
+/// The product of digits, ignoring their decimal point, and a whole number.
 fn multiplied(digits: &str, by: u64) -> String {
     let mut product: Vec<u8> = Vec::new();
     let mut carried: u128 = 0;

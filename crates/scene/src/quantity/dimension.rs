@@ -1,7 +1,7 @@
-//! What a value measures, as powers of metre, kilogram, second, radian and ampere.
+//! The dimension of a value, as powers of metre, kilogram, second, radian and ampere.
 //!
-//! `powers => the SI unit as messages show it`: `N·m/rad`. An angle counts as a dimension, so that
-//! stiffness along a line and about an axis, or Hz and rad/s, are not taken for each other.
+//! `powers => the SI unit as messages show it`: `N·m/rad`. An angle counts as a dimension, so that stiffness along a
+//! line and about an axis, or Hz and rad/s, are not confused.
 
 use std::fmt;
 
@@ -15,10 +15,10 @@ pub struct Dimension {
     ampere: i8,
 }
 
-/// Beyond this power nothing is measured.
+/// Largest exponent.
 const MOST: i8 = 24;
 
-/// What has a better name than its powers.
+/// Dimensions with a unit name.
 const NAMES: &[(Dimension, &str)] = &[
     (Dimension::new(1, 1, -2, 0), "N"),
     (Dimension::new(0, 1, -2, 0), "N/m"),
@@ -40,18 +40,18 @@ impl Dimension {
         Self { metre, kilogram, second, radian, ampere: 0 }
     }
 
-    /// That of a quotient by a power of the ampere.
+    /// Divides by a power of the ampere.
     pub(crate) const fn per_ampere(self, power: i8) -> Self {
         Self { ampere: self.ampere - power, ..self }
     }
 
-    /// Whether it is that of a plain number.
+    /// Whether it is dimensionless.
     #[must_use]
     pub fn is_none(self) -> bool {
         self == Self::default()
     }
 
-    /// That of a product with a power of another; `None` where a power is beyond all measure.
+    /// The product with a power of another; `None` where an exponent is too large.
     pub(super) fn times(self, other: Self, power: i8) -> Option<Self> {
         let sum = |a: i8, b: i8| {
             a.checked_add(b.checked_mul(power)?).filter(|sum| (-MOST..=MOST).contains(sum))
@@ -65,7 +65,7 @@ impl Dimension {
         })
     }
 
-    /// That of a square root; `None` where a power is odd.
+    /// The square root; `None` where an exponent is odd.
     pub(super) fn root(self) -> Option<Self> {
         let Self { metre, kilogram, second, radian, ampere } = self;
         let is_even = [metre, kilogram, second, radian, ampere].iter().all(|power| power % 2 == 0);
@@ -73,7 +73,7 @@ impl Dimension {
         is_even.then(|| half().per_ampere(-ampere / 2))
     }
 
-    /// Powers of an angle that another has more, where they differ in nothing else.
+    /// How many powers of an angle another has more, where they differ in nothing else.
     pub(crate) fn angles_to(self, other: Self) -> Option<i8> {
         let same = Self { radian: other.radian, ..self } == other;
         (same && self != other).then(|| other.radian - self.radian)
@@ -108,7 +108,7 @@ impl fmt::Display for Dimension {
     }
 }
 
-/// A power > 0 as it stands behind a unit.
+/// An exponent > 0 in superscript digits.
 fn raised(power: i8) -> String {
     if power == 1 {
         return String::new();

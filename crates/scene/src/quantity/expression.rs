@@ -1,6 +1,6 @@
 //! Texts of numbers, units and names, and the arithmetic between them.
 //!
-//! `(text, names) => quantity, or a fault at its place`. One pass from left to right:
+//! `(text, names) => quantity, or a fault with its position`. One pass from left to right:
 //!
 //! ```text
 //! sum     = product (("+" | "-") product)*
@@ -26,25 +26,25 @@ use crate::quantity::word::{begins_word, word};
 use crate::quantity::{Quantity, scope};
 use crate::shortened::shortened;
 
-/// Brackets within brackets: a thread's smallest stack holds them many times over.
+/// Deepest nesting of brackets; far below the limit of a thread's smallest stack.
 const DEEPEST: usize = 32;
 
-/// The highest power of a unit.
+/// Largest exponent of a unit.
 const HIGHEST: u64 = 9;
 
-/// The value of a text, its names those of a scope.
+/// The value of a text with the names of a scope.
 pub(crate) fn within(text: &str, scope: Option<&Scope>) -> Result<Quantity, Fault> {
     let mut parser = Parser { text, place: 0, scope, depth: 0, has_number: false };
     let found = parser.sum()?;
     if let Some(left) = parser.next() {
         return Err(match left {
-            ')' => parser.fault(1, "a bracket is closed that is not open", "as many `(` as `)`"),
+            ')' => parser.fault(1, "unmatched `)`", "add the missing `(` or remove this `)`"),
             _ => parser.unexpected(left),
         });
     }
     if !parser.has_number {
-        let help = format!("a number before it: \"1 {}\"", shortened(text.trim()));
-        return Err(Fault::new(found.place, "a unit stands without a number", help));
+        let help = format!("add a number: \"1 {}\"", shortened(text.trim()));
+        return Err(Fault::new(found.place, "unit without a number", help));
     }
     let value = found.value();
     if !value.is_finite() {
@@ -59,7 +59,7 @@ struct Parser<'t> {
     scope: Option<&'t Scope>,
     /// Open brackets.
     depth: usize,
-    /// Whether there was more than units.
+    /// Whether there was anything but units.
     has_number: bool,
 }
 
@@ -75,23 +75,28 @@ impl<'t> Parser<'t> {
         self.rest().chars().next()
     }
 
-    /// A fault of so many bytes from here on.
+    /// A fault of the given number of bytes from here on.
     fn fault(&self, length: usize, message: impl Into<String>, help: impl Into<String>) -> Fault {
         Fault::new(self.place..self.place + length, message, help)
     }
 
-    /// The refusal of a character that cannot stand here.
+    /// The fault of an unexpected character.
     fn unexpected(&self, found: char) -> Fault {
         let length = found.len_utf8();
         match found {
-            ',' => self.fault(length, "a comma in a number", "a number has a decimal point: 0.5"),
+            ',' => self.fault(length, "comma in a number", "use a decimal point: 0.5"),
             '^' | '²' | '³' => {
-                let help = "brackets around what is raised: (L^2)^3, (5 mm^2)^2";
-                self.fault(length, "a power of a power can be read in two ways", help)
+                let help = "put the base in brackets: (L^2)^3, (5 mm^2)^2";
+                self.fault(length, "a power of a power is ambiguous", help)
             }
             _ => {
-                let message = format!("`{found}` is no part of a value");
-                self.fault(length, message, "numbers, units, names of [parameters], + - * / ( )")
+                let message = format!("unexpected `{found}` in a value");
+                self.fault(
+                    length,
+                    message,
+                    "expected numbers, units, names of [parameters], + - * \
+                                             / ( )",
+                )
             }
         }
     }
@@ -131,7 +136,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The refusal of `1 / 2 mm`, which some take for half a millimetre and others for 500 1/m.
+    /// The fault of `1 / 2 mm`, which may mean half a millimetre or 500 1/m.
     fn two_ways(&self, left: &Operand<'_>, right: &Operand<'_>) -> Fault {
         let text = |place: Range<usize>| shortened(&self.text[place]).into_owned();
         let place = left.place.start..right.place.end;
@@ -139,11 +144,11 @@ impl<'t> Parser<'t> {
         let before = text(place.start..right.place.start);
         let unit = divided.trim_start_matches(|c: char| !begins_word(c) || "eE".contains(c));
         let number = divided[..divided.len() - unit.len()].trim_end();
-        let message = format!("`{}` can be read in two ways", text(place.clone()));
-        Fault::new(place, message, format!("{before}({divided}) or {before}{number} * {unit}"))
+        let message = format!("`{}` is ambiguous", text(place.clone()));
+        Fault::new(place, message, format!("use {before}({divided}) or {before}{number} * {unit}"))
     }
 
-    /// The refusal of two operands without a sign between them.
+    /// The fault of two operands without an operator between them.
     fn no_sign(&self, left: &Operand<'_>) -> Fault {
         let rest = self.rest();
         let length = match Decimal::begins(rest) {
@@ -155,10 +160,10 @@ impl<'t> Parser<'t> {
             return self.unknown(right);
         }
         let left = shortened(self.text[left.place.clone()].trim()).into_owned();
-        let message = format!("no sign stands between `{left}` and `{}`", shortened(right));
+        let message = format!("missing operator between `{left}` and `{}`", shortened(right));
         let help = match right {
-            "(" => format!("`*` between them: {left} * ("),
-            _ => format!("`*` between them: {left} * {}", shortened(right)),
+            "(" => format!("add `*`: {left} * ("),
+            _ => format!("add `*`: {left} * {}", shortened(right)),
         };
         self.fault(length, message, help)
     }
@@ -177,7 +182,7 @@ impl<'t> Parser<'t> {
         Ok(if is_negative { operand.negated() } else { operand })
     }
 
-    /// A value with its power, if it has one: a unit has taken up its own.
+    /// A value with its exponent, if any; a unit has already read its own.
     fn raised(&mut self) -> Result<Operand<'t>, Fault> {
         let base = self.atom()?;
         if base.is_bare && matches!(base.worth, Worth::Unit(_)) || base.has_unit() {
@@ -196,11 +201,11 @@ impl<'t> Parser<'t> {
             }
             None => {
                 let help = format!(
-                    "a value has a whole power from 1 to {0} or -1 to -{0}: L^2; sqrt(A) is a root",
+                    "use a whole exponent from 1 to {0} or -1 to -{0}: L^2; for a root use sqrt(A)",
                     function::HIGHEST
                 );
                 let place = base.place.start..start + length;
-                Err(Fault::new(place, "a power that no value has", help))
+                Err(Fault::new(place, "invalid exponent of a value", help))
             }
         }
     }
@@ -208,7 +213,7 @@ impl<'t> Parser<'t> {
     fn atom(&mut self) -> Result<Operand<'t>, Fault> {
         let Some(first) = self.next() else {
             let before = self.text.trim_end().len();
-            let message = if before == 0 { "it is empty" } else { "a number or a name is missing" };
+            let message = if before == 0 { "empty value" } else { "missing number or name" };
             return Err(Fault::new(before..before, message, "e.g. \"30 deg\", \"2 * L + 5 mm\""));
         };
         let start = self.place;
@@ -224,7 +229,7 @@ impl<'t> Parser<'t> {
             return Err(match first {
                 ')' | '*' | '/' => self.fault(
                     1,
-                    format!("a number or a name is missing before `{first}`"),
+                    format!("missing number or name before `{first}`"),
                     "e.g. (2 * L) / 3",
                 ),
                 _ => self.unexpected(first),
@@ -248,8 +253,8 @@ impl<'t> Parser<'t> {
                 self.place += word.len();
                 self.has_number = true;
                 if self.next() != Some('(') {
-                    let message = format!("`{word}` is a function: its argument is missing");
-                    let help = format!("the argument in brackets: {word}(…)");
+                    let message = format!("missing argument of function `{word}`");
+                    let help = format!("give the argument in brackets: {word}(…)");
                     return Err(Fault::new(start..start + word.len(), message, help));
                 }
                 let argument = self.bracket()?;
@@ -260,7 +265,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// A number and the unit behind it, if there is one.
+    /// A number with its unit, if any.
     fn measured(&mut self, number: Decimal<'t>, start: usize) -> Result<Operand<'t>, Fault> {
         let (mut scale, mut dimension, mut end) = (Scale::ONE, Dimension::default(), self.place);
         if self.next().is_some_and(begins_word) {
@@ -270,7 +275,7 @@ impl<'t> Parser<'t> {
                     (scale, dimension) = self.unit(unit)?;
                     end = self.place;
                 }
-                // The product says that a sign is missing.
+                // The product reports the missing operator.
                 Some(Known::Name(_) | Known::Function(_)) => {}
                 None => return Err(self.unknown(word)),
             }
@@ -283,22 +288,22 @@ impl<'t> Parser<'t> {
         let start = self.place;
         if self.depth == DEEPEST {
             let message = format!("brackets are nested more than {DEEPEST} deep");
-            return Err(self.fault(1, message, "a part of it as a name of [parameters]"));
+            return Err(self.fault(1, message, "move a part of it to [parameters]"));
         }
         self.depth += 1;
         self.skip();
         let inner = self.sum()?;
         match self.next() {
             Some(')') => self.skip(),
-            None => return Err(Fault::new(start..start + 1, "a bracket is not closed", "`)`")),
+            None => return Err(Fault::new(start..start + 1, "unclosed `(`", "add `)`")),
             Some(found) => return Err(self.unexpected(found)),
         }
         self.depth -= 1;
-        // A unit in brackets is one still: N·m/(s²·rad).
+        // A unit in brackets remains a unit: N·m/(s²·rad).
         Ok(Operand { place: start..self.place, is_bare: false, ..inner })
     }
 
-    /// A unit with its power.
+    /// A unit with its exponent.
     fn unit(&mut self, unit: &'static Unit) -> Result<(Scale, Dimension), Fault> {
         let start = self.place;
         self.place += unit.name.len();
@@ -310,8 +315,8 @@ impl<'t> Parser<'t> {
             Some(size) => Some(size),
         };
         let beyond = || {
-            let help = format!("a unit has a whole power from 1 to {HIGHEST}: m^2, s^-1");
-            Fault::new(start..self.place + length, "a power that no unit has", help)
+            let help = format!("use a whole exponent from 1 to {HIGHEST}: m^2, s^-1");
+            Fault::new(start..self.place + length, "invalid exponent of a unit", help)
         };
         let power = power.ok_or_else(beyond)?;
         let (mut scale, mut dimension) = (Scale::ONE, Dimension::default());
@@ -324,7 +329,7 @@ impl<'t> Parser<'t> {
         Ok((scale, dimension))
     }
 
-    /// What a word names.
+    /// The meaning of a word.
     fn known(&self, word: &str) -> Option<Known> {
         let is_hidden = unit::HIDDEN.contains(&word)
             && self.scope.is_some_and(|scope| scope.row(word).is_some());
@@ -339,12 +344,12 @@ impl<'t> Parser<'t> {
         named.or_else(|| function::find(word).map(Known::Function))
     }
 
-    /// The refusal of a word that names nothing.
+    /// The fault of an unknown word.
     fn unknown(&self, word: &str) -> Fault {
         let shown = shortened(word);
         let Some(scope) = self.scope else {
             let help = Scope::default().help(word);
-            return self.fault(word.len(), format!("`{shown}` is no unit"), help);
+            return self.fault(word.len(), format!("unknown unit `{shown}`"), help);
         };
         let message = format!("`{shown}` is neither a unit nor one of [parameters]");
         self.fault(word.len(), message, scope.help(word))
@@ -355,15 +360,15 @@ impl<'t> Parser<'t> {
     }
 }
 
-/// What a word names.
+/// The meaning of a word.
 enum Known {
     Unit(&'static Unit),
     Name(Quantity),
     Function(Function),
 }
 
-/// The power that a text begins with: its sign, its size, `None` where that is no number, and its bytes, 0 where
-/// there is none.
+/// The exponent at the beginning of a text: whether it is negative, its magnitude (`None` if not a number), and its
+/// length in bytes, 0 without an exponent.
 fn power(text: &str) -> (bool, Option<u64>, usize) {
     let blank = text.len() - text.trim_start().len();
     let Some(power) = text[blank..].strip_prefix('^') else { return raised(text) };
@@ -376,7 +381,7 @@ fn power(text: &str) -> (bool, Option<u64>, usize) {
     (power.starts_with('-'), size, blank + 1 + length)
 }
 
-/// The power in raised digits, likewise.
+/// The same for superscript digits.
 fn raised(text: &str) -> (bool, Option<u64>, usize) {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let unsigned = text.strip_prefix('⁻').unwrap_or(text);

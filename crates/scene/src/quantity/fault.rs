@@ -1,18 +1,18 @@
-//! Why a text is no value.
+//! Errors of a value's text.
 
 use std::ops::Range;
 
-/// What is wrong with a text that should be a value, where, and what would be right.
+/// An error of a value's text: position, problem, remedy.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Fault {
     /// Bytes of the text.
     pub place: Range<usize>,
-    /// What is wrong.
+    /// The problem.
     pub message: String,
-    /// What would be right.
+    /// The remedy.
     pub help: String,
-    /// Whether it is a number beyond what an f64 holds.
+    /// Whether a number exceeds the range of an f64.
     pub is_too_large: bool,
 }
 
@@ -26,7 +26,7 @@ impl Fault {
     }
 
     pub(super) fn too_large(place: Range<usize>) -> Self {
-        let help = "a value is below 1.8e308 in SI units";
-        Self { is_too_large: true, ..Self::new(place, "a value is too large", help) }
+        let help = "use a value below 1.8e308 in SI units";
+        Self { is_too_large: true, ..Self::new(place, "value is too large", help) }
     }
 }

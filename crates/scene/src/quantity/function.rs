@@ -1,7 +1,7 @@
 //! Roots, angles and powers in a value's text.
 //!
-//! `(function, quantity) => quantity, or a fault at its place`. All are computed on the PC when a scene is read, by
-//! libm or in double-double arithmetic, so that every machine gets the same number.
+//! `(function, quantity) => quantity, or a fault at its place`. All are computed when a scene is read, by libm or in
+//! double-double arithmetic, so that every host gets the same number.
 
 use crate::precise::sine_and_cosine;
 use crate::quantity::dimension::Dimension;
@@ -11,10 +11,10 @@ use crate::quantity::operand::{Operand, Worth};
 /// The dimension of an angle.
 const ANGLE: Dimension = Dimension::new(0, 0, 0, 1);
 
-/// The highest power of a value.
+/// Largest exponent of a value.
 pub(super) const HIGHEST: u64 = 9;
 
-/// A function of one argument, which follows its name in brackets.
+/// A function of one argument in brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Function {
     Root,
@@ -43,7 +43,7 @@ pub(super) fn find(name: &str) -> Option<Function> {
 }
 
 impl Function {
-    /// Its value at an argument. The operand keeps the argument's place.
+    /// Its value at an argument. The operand keeps the argument's position.
     pub(super) fn of<'t>(self, argument: Operand<'t>) -> Result<Operand<'t>, Fault> {
         let value = argument.value();
         if !value.is_finite() {
@@ -56,22 +56,22 @@ impl Function {
             Self::Root => {
                 let Some(dimension) = argument.dimension.root() else {
                     let message = format!("a value in {} has no square root", argument.dimension);
-                    return refuse(message, "a square, e.g. sqrt(a * a + b * b)");
+                    return refuse(message, "expected a square, e.g. sqrt(a * a + b * b)");
                 };
                 if value < 0.0 {
                     return refuse(
-                        format!("the square root of {value}"),
-                        "a value that is 0 or more",
+                        format!("square root of {value}"),
+                        "expected a value that is 0 or more",
                     );
                 }
                 (libm::sqrt(value), dimension)
             }
             Self::Sine | Self::Cosine | Self::Tangent => {
                 if ![ANGLE, plain].contains(&argument.dimension) {
-                    let message = format!("a value in {} is no angle", argument.dimension);
+                    let message = format!("a value in {} is not an angle", argument.dimension);
                     return refuse(
                         message,
-                        "an angle, e.g. sin(30 deg), or a plain number of radians",
+                        "expected an angle, e.g. sin(30 deg), or a plain number of radians",
                     );
                 }
                 let (sine, cosine) = sine_and_cosine(value);
@@ -79,7 +79,7 @@ impl Function {
                     Self::Sine => sine,
                     Self::Cosine => cosine,
                     _ if cosine.nearest() == 0.0 => {
-                        return refuse("the tangent is infinite there".into(), "another angle");
+                        return refuse("the tangent is infinite".into(), "use another angle");
                     }
                     _ => sine / cosine,
                 };
@@ -87,11 +87,15 @@ impl Function {
             }
             Self::Arcsine | Self::Arccosine | Self::Arctangent => {
                 if argument.dimension != plain {
-                    let message = format!("a value in {} is no ratio", argument.dimension);
-                    return refuse(message, "a plain number, e.g. atan(rise / run)");
+                    let message = format!("a value in {} is not a ratio", argument.dimension);
+                    return refuse(message, "expected a plain number, e.g. atan(rise / run)");
                 }
                 if self != Self::Arctangent && value.abs() > 1.0 {
-                    return refuse(format!("no angle has it: {value}"), "a ratio from -1 to 1");
+                    return refuse(
+                        format!("ratio out of range: {value}"),
+                        "expected a ratio from \
+                                                                           -1 to 1",
+                    );
                 }
                 let angle = match self {
                     Self::Arcsine => libm::asin(value),
@@ -106,7 +110,7 @@ impl Function {
     }
 }
 
-/// A whole power of an operand: the product written out from left to right, or one over it.
+/// A whole power of an operand: the product from left to right, or its reciprocal.
 pub(super) fn power(base: Operand<'_>, exponent: i8, end: usize) -> Result<Operand<'_>, Fault> {
     let place = base.place.start..end;
     let value = base.value();
@@ -114,11 +118,11 @@ pub(super) fn power(base: Operand<'_>, exponent: i8, end: usize) -> Result<Opera
         return Err(Fault::too_large(place));
     }
     if exponent < 0 && value == 0.0 {
-        return Err(Fault::new(place, "it is divided by 0", "another base"));
+        return Err(Fault::new(place, "division by 0", "use another base"));
     }
     let Some(dimension) = Dimension::default().times(base.dimension, exponent) else {
-        let help = "fewer units: a power of a length, a mass, a time or an angle is at most 24";
-        return Err(Fault::new(place, "the unit is beyond all measure", help));
+        let help = "use fewer units: exponents of length, mass, time and angle are at most 24";
+        return Err(Fault::new(place, "exponent of the unit is too high", help));
     };
     let product = (1..exponent.unsigned_abs()).fold(value, |product, _| product * value);
     let value = if exponent < 0 { 1.0 / product } else { product };

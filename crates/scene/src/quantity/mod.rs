@@ -1,10 +1,10 @@
 //! Numbers with units and the arithmetic between them: `30 deg`, `9 kN/mm`, `2 * L + 5 mm`.
 //!
-//! `(text, names) => SI value and dimension, or a fault with its place in the text`. Lengths, masses, times
-//! and angles are dimensions of their own; a number without a unit has none. `*` and `/` go before `+`
-//! and `-`, each from left to right, and a unit right behind a number goes before all: `5 N / 2 mm`
-//! is 2500 N/m. A value has whole powers and roots, an angle a sine, cosine and tangent. A number with its units is converted at once; every further operation
-//! rounds once. Nothing here knows of files or scenes.
+//! `(text, names) => SI value and dimension, or a fault with its place in the text`. Lengths, masses, times and angles
+//! are separate dimensions; a number without a unit has none. `*` and `/` bind tighter than `+` and `-`, each from left
+//! to right, and a unit directly after a number binds tightest: `5 N / 2 mm` is 2500 N/m. Whole powers, roots, sine,
+//! cosine, tangent and their inverses are supported. A number with its units is converted in one rounding; every
+//! further operation rounds once. This module is independent of files and scenes.
 
 mod decimal;
 mod dimension;
@@ -27,7 +27,7 @@ pub(crate) use word::words;
 pub struct Quantity {
     /// \[SI unit of its dimension\] finite.
     pub value: f64,
-    /// What it measures; none for a plain number.
+    /// Its dimension; none for a plain number.
     pub dimension: Dimension,
 }
 
@@ -40,7 +40,7 @@ pub struct Quantity {
 /// ```
 ///
 /// # Errors
-/// Where it is none; a name that is no unit is at fault, too.
+/// Where the text is not a valid value; unknown units are errors as well.
 pub fn evaluate(text: &str) -> Result<Quantity, Fault> {
     within(text, None)
 }
@@ -50,11 +50,11 @@ pub fn units() -> impl Iterator<Item = &'static str> {
     unit::UNITS.iter().map(|unit| unit.name)
 }
 
-/// The dimension of a key's unit as messages show it: `kg·m²`, and without what follows a comma.
+/// The dimension of a key's unit in message form, e.g. `kg·m²`; text after a comma is ignored.
 pub(crate) fn dimension_of(unit: &str) -> Dimension {
     let unit = unit.split(',').next().unwrap_or_default().trim();
     let found = evaluate(&format!("1 {unit}"));
-    debug_assert!(found.is_ok(), "`{unit}` is no unit");
+    debug_assert!(found.is_ok(), "unknown unit `{unit}`");
     found.map(|quantity| quantity.dimension).unwrap_or_default()
 }
 

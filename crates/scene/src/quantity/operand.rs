@@ -1,7 +1,7 @@
 //! Products, quotients, sums and differences of quantities.
 //!
-//! `(operand, operand) => operand, or a fault at its place`. A number takes up the units that it is
-//! multiplied with or divided by before it is rounded: `9 kN/mm` is 9e6 at once.
+//! `(operand, operand) => operand, or a fault at its place`. A number absorbs the units by which it is multiplied or
+//! divided before it is rounded: `9 kN/mm` is 9e6 in one rounding.
 
 use std::ops::Range;
 
@@ -10,12 +10,12 @@ use crate::quantity::dimension::Dimension;
 use crate::quantity::fault::Fault;
 use crate::quantity::unit::Scale;
 
-/// What stands between two signs.
+/// An operand of an operator.
 pub(super) struct Operand<'t> {
     pub(super) worth: Worth<'t>,
     pub(super) dimension: Dimension,
     pub(super) place: Range<usize>,
-    /// Whether it stands without brackets.
+    /// Whether it is written without brackets.
     pub(super) is_bare: bool,
 }
 
@@ -42,7 +42,7 @@ impl<'t> Operand<'t> {
         }
     }
 
-    /// Whether it is a number with its unit, and not in brackets.
+    /// Whether it is a number with its unit, without brackets.
     pub(super) fn has_unit(&self) -> bool {
         self.is_bare && matches!(self.worth, Worth::Written { .. }) && !self.dimension.is_none()
     }
@@ -61,8 +61,8 @@ impl<'t> Operand<'t> {
     pub(super) fn times(self, right: Self, divided: bool) -> Result<Self, Fault> {
         let place = self.place.start..right.place.end;
         let beyond = || {
-            let help = "fewer units: a power of a length, a mass, a time or an angle is at most 24";
-            Fault::new(place.clone(), "the unit is beyond all measure", help)
+            let help = "use fewer units: exponents of length, mass, time and angle are at most 24";
+            Fault::new(place.clone(), "exponent of the unit is too high", help)
         };
         let power = if divided { -1 } else { 1 };
         let dimension = self.dimension.times(right.dimension, power).ok_or_else(beyond)?;
@@ -81,11 +81,11 @@ impl<'t> Operand<'t> {
             _ => {
                 let (value, by) = (self.value(), right.value());
                 if !by.is_finite() {
-                    // Divided by, it would leave a 0.
+                    // As a divisor it would give 0.
                     return Err(Fault::too_large(right.place));
                 }
                 if divided && by == 0.0 {
-                    return Err(Fault::new(right.place, "it is divided by 0", "another divisor"));
+                    return Err(Fault::new(right.place, "division by 0", "use another divisor"));
                 }
                 Worth::Computed(if divided { value / by } else { value * by })
             }
@@ -107,28 +107,30 @@ impl<'t> Operand<'t> {
 
     fn finite(self) -> Result<Self, Fault> {
         match self.worth {
-            // It may yet get a unit.
+            // A unit may still follow.
             Worth::Computed(value) if !value.is_finite() => Err(Fault::too_large(self.place)),
             _ => Ok(self),
         }
     }
 }
 
-/// The refusal of a sum of what has two dimensions.
+/// The fault of a sum of different dimensions.
 fn unlike(left: &Operand<'_>, right: &Operand<'_>) -> Fault {
     let (plain, other) = match (left.dimension.is_none(), right.dimension.is_none()) {
         (true, _) => (left, right),
         (_, true) => (right, left),
         _ => {
-            let message =
-                format!("a value in {} is added to one in {}", right.dimension, left.dimension);
-            let help = "what is added or subtracted has one dimension";
+            let message = format!(
+                "mismatched units: a value in {} and one in {}",
+                right.dimension, left.dimension
+            );
+            let help = "operands of + and - must have one dimension";
             return Fault::new(right.place.clone(), message, help);
         }
     };
-    let message = format!("a plain number stands beside a value in {}", other.dimension);
+    let message = format!("mismatched units: a plain number and a value in {}", other.dimension);
     let help = format!(
-        "give it its unit here or where it is named, e.g. \"5 {0}\", or `* {0}` behind a name",
+        "give the number its unit, e.g. \"5 {0}\", or `* {0}` after a name",
         other.dimension
     );
     Fault::new(plain.place.clone(), message, help)

@@ -1,5 +1,5 @@
-//! Random expressions beside a second evaluation, which goes along the tree that the text was
-//! written from; and texts of anything.
+//! Random expressions compared with a second evaluation on the tree from which the text was written; and arbitrary
+//! texts.
 
 use std::cell::Cell;
 
@@ -21,7 +21,7 @@ enum Tree {
     Of(char, Box<(Tree, Tree)>),
 }
 
-/// Units, the power of ten that each is of SI, and its powers of m, kg, s, rad.
+/// Units, their power of ten relative to SI, and their powers of m, kg, s, rad.
 const UNITS: [(&str, i32, [i32; 4]); 10] = [
     ("", 0, [0; 4]),
     ("", 0, [0; 4]),
@@ -51,7 +51,7 @@ fn trees() -> impl Strategy<Value = Tree> {
     ];
     leaf.prop_recursive(5, 24, 2, |inner| {
         let pair = (inner.clone(), inner.clone());
-        // Of two dimensions most random sums are: here is one of a value and a multiple of it.
+        // Most random sums mix dimensions; this one adds a multiple of the same value.
         let like = (prop::sample::select(vec!['+', '-']), 0..50_u32, inner.clone());
         let like = like.prop_map(|(sign, count, tree)| {
             let times = Tree::Of('*', (Tree::Number(count, 0, 0), tree.clone()).into());
@@ -69,7 +69,7 @@ fn trees() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// Value and powers; `None` where there is none.
+/// Value and powers; `None` where undefined.
 fn evaluated(tree: &Tree) -> Option<(f64, [i32; 4])> {
     let (value, powers) = match tree {
         Tree::Number(count, ten, unit) => {
@@ -141,7 +141,7 @@ fn written(tree: &Tree, blanks: u64) -> String {
                 left => inner(left),
             };
             let right = match &pair.1 {
-                // A unit goes with its number, but what follows a product's sign stands alone.
+                // A unit belongs to its number, so operands after an operator need brackets.
                 right @ (Tree::Number(..) | Tree::Negative(_)) if is_product => closed(right),
                 right @ Tree::Of(..) if is_product || is_sum(right) => closed(right),
                 right => inner(right),

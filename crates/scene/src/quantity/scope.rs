@@ -1,7 +1,7 @@
-//! What names stand for in a value's text: the `[parameters]` of a scene.
+//! The names in a value's text: the `[parameters]` of a scene.
 //!
-//! `(name, place in the file) => quantity, and whether it was asked for`. What may be a name: letters, digits and `_`,
-//! no digit first, and no unit: `m` is a metre wherever it stands. A parameter `A`, `V` or `H` hides the unit.
+//! `(name, position in the file) => quantity, and whether it was used`. A name consists of letters, digits and `_`,
+//! does not start with a digit and is not a unit: `m` is always a metre. A parameter `A`, `V` or `H` hides the unit.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use crate::quantity::unit::{HIDDEN, UNITS, find};
 use crate::quantity::word::{begins_word, word};
 use crate::shortened::shortened;
 
-/// What every text may name.
+/// A constant that every text may use.
 pub(super) const PI: (&str, f64) = ("pi", core::f64::consts::PI);
 
 /// Why a text cannot be a name.
@@ -20,9 +20,9 @@ pub(super) const PI: (&str, f64) = ("pi", core::f64::consts::PI);
 pub(crate) enum NameFault {
     /// It is not one word of letters, digits and `_`.
     NoWord,
-    /// A unit has it.
+    /// It is a unit.
     Unit,
-    /// Every text has it: π.
+    /// It is the constant π.
     Constant,
 }
 
@@ -41,7 +41,7 @@ pub(crate) fn check_name(name: &str) -> Result<(), NameFault> {
     Ok(())
 }
 
-/// Names with what they stand for, in the order of the file.
+/// Names with their values, in the order of the file.
 #[derive(Debug, Default)]
 pub(crate) struct Scope {
     rows: BTreeMap<String, usize>,
@@ -56,7 +56,7 @@ struct Entry {
 }
 
 impl Scope {
-    /// Names that stand for nothing yet; each once.
+    /// Names without values; each once.
     pub(crate) fn of(names: impl Iterator<Item = String>) -> Self {
         let entry = |name| Entry { name, quantity: None, used: Cell::new(false) };
         let entries: Vec<Entry> = names.map(entry).collect();
@@ -64,38 +64,38 @@ impl Scope {
         Self { rows: rows.collect(), entries }
     }
 
-    /// What a name stands for from now on.
+    /// Sets the value of a name.
     pub(crate) fn set(&mut self, row: usize, quantity: Quantity) {
         if let Some(entry) = self.entries.get_mut(row) {
             entry.quantity = Some(quantity);
         }
     }
 
-    /// Which of the names it is.
+    /// The index of a name.
     pub(crate) fn row(&self, name: &str) -> Option<usize> {
         self.rows.get(name).copied()
     }
 
-    /// What a name stands for, without asking for it.
+    /// The value of a name, without marking it as used.
     pub(crate) fn look(&self, name: &str) -> Option<Quantity> {
         self.entries.get(self.row(name)?)?.quantity
     }
 
-    /// What a name stands for.
+    /// The value of a name; marks it as used.
     pub(crate) fn get(&self, name: &str) -> Option<Quantity> {
         let entry = self.entries.get(self.row(name)?)?;
         entry.used.set(true);
         entry.quantity
     }
 
-    /// All names with what they stand for and whether they were asked for.
+    /// All names with their values and whether they were used.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, Quantity, bool)> {
         self.entries.iter().filter_map(|entry| {
             entry.quantity.map(|quantity| (entry.name.as_str(), quantity, entry.used.get()))
         })
     }
 
-    /// What would be right instead of an unknown word.
+    /// The remedy for an unknown word.
     pub(super) fn help(&self, word: &str) -> String {
         let names = || self.entries.iter().map(|entry| entry.name.as_str());
         let units = UNITS.iter().map(|unit| unit.name);
@@ -108,20 +108,20 @@ impl Scope {
         let some: Vec<_> = names().take(12).map(shortened).collect();
         if !some.is_empty() {
             let more = if self.entries.len() > some.len() { " …" } else { "" };
-            help += &format!("[parameters] has {}{more}; ", some.join(", "));
+            help += &format!("known parameters: {}{more}; ", some.join(", "));
         }
-        help + "units are m, mm, kg, s, ms, deg, N, kN, Hz, …"
+        help + "known units: m, mm, kg, s, ms, deg, N, kN, Hz, …"
     }
 }
 
-/// A unit with digits behind it as its power: `m2` is meant as `m^2`.
+/// Suggests `m^2` for a unit followed by a digit, `m2`.
 fn power(word: &str) -> Option<String> {
     let unit = word.trim_end_matches(|c: char| c.is_ascii_digit());
     let power = &word[unit.len()..];
     (find(unit).is_some() && power.len() == 1).then(|| format!("{unit}^{power}"))
 }
 
-/// The name nearest to a word: to a single letter only the same one is near.
+/// The name closest to a word; a single letter matches only itself.
 fn near<'c>(word: &str, names: impl Iterator<Item = &'c str>) -> Option<&'c str> {
     let alone = word.chars().nth(1).is_none();
     nearest(word, names.filter(|name| !alone || name.to_lowercase() == word.to_lowercase()))

@@ -1,12 +1,12 @@
-//! Units by their names, and what they are of SI.
+//! Units by name, with their conversion to SI.
 //!
-//! `name => scale and dimension`. A scale is kept exactly, `10^e · n/d · π^p`, so that a number with its units
-//! is converted at once: kN/mm is 10^6. Inch, foot, pound and pound-force are those of the
-//! international agreement of 1959 with standard gravity.
+//! `name => scale and dimension`. A scale is stored exactly as `10^e · n/d · π^p`, so that a number with its units is
+//! converted in one rounding: kN/mm is 10^6. Inch, foot, pound and pound-force are those of the international agreement
+//! of 1959 with standard gravity.
 
 use crate::quantity::dimension::Dimension;
 
-/// How many of its SI unit one is: `10^ten · over/under · π^pi`.
+/// The value of one unit in SI: `10^ten · over/under · π^pi`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Scale {
     pub(super) ten: i32,
@@ -18,7 +18,7 @@ pub(super) struct Scale {
 impl Scale {
     pub(super) const ONE: Self = Self { ten: 0, over: 1, under: 1, pi: 0 };
 
-    /// A product with another, or a quotient; `None` where it is beyond exact numbers.
+    /// The product with another, or the quotient; `None` where it cannot be represented exactly.
     pub(super) fn times(self, other: Self, divided: bool) -> Option<Self> {
         let (over, under, sign) = match divided {
             false => (other.over, other.under, 1),
@@ -34,7 +34,7 @@ impl Scale {
         })
     }
 
-    /// The part that is no power of ten.
+    /// The factor without the power of ten.
     pub(super) fn factor(self) -> f64 {
         let mut pi = 1.0;
         for _ in 0..self.pi.unsigned_abs() {
@@ -106,7 +106,7 @@ const fn other(
     Unit { name, scale: Scale { ten, over, under, pi }, dimension }
 }
 
-/// All units, of spellings the one to show first. What is listed in `docs/scene-reference.md`.
+/// All units, the preferred spelling first; listed in `docs/scene-reference.md`.
 pub(super) static UNITS: &[Unit] = &[
     decimal("m", 0, LENGTH),
     decimal("km", 3, LENGTH),
@@ -176,7 +176,7 @@ pub(super) static UNITS: &[Unit] = &[
     decimal("µH", -6, INDUCTANCE),
 ];
 
-/// Units of one capital letter, which parameters of their names hide: a height is `H` more often than a henry.
+/// Units of one capital letter, which parameters may hide: `H` is more often a height than a henry.
 pub(super) const HIDDEN: [&str; 3] = ["A", "V", "H"];
 
 /// The unit of a name.

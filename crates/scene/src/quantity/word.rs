@@ -1,4 +1,4 @@
-//! Words in a value's text: what a name or a unit may look like.
+//! Words in a value's text: the syntax of names and units.
 
 use crate::quantity::decimal::Decimal;
 

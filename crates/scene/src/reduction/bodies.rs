@@ -9,7 +9,7 @@ use crate::reduction::departure::{Leaves, Part};
 use crate::runtime::SceneModel;
 use crate::scene::Scene;
 
-/// \[m\] how large a model is: its bodies' spread and the reach of its points.
+/// \[m\] size of a model: the extent of its bodies and points.
 pub(super) fn size(model: &SceneModel<F64>) -> f64 {
     let largest = |v: Vec3<f64>| v.to_f64().into_iter().map(f64::abs).fold(0.0, f64::max);
     let first = model.initial.first().map_or(Vec3::ZERO, |state| state.position);
@@ -17,7 +17,7 @@ pub(super) fn size(model: &SceneModel<F64>) -> f64 {
     spread.chain(model.points.iter().map(|point| largest(*point))).fold(0.0, f64::max)
 }
 
-/// \[m\] where along a normal most bodies lie: that of the middle one.
+/// \[m\] position of the median body along a normal.
 pub(super) fn height(model: &SceneModel<F64>, axes: &Axes, near: f64) -> f64 {
     let heights = model.initial.iter().map(|state| axes.inward(state.position).z);
     let mut heights: Vec<f64> = heights.collect();
@@ -55,7 +55,7 @@ pub(super) fn read(
         }
         if let Some(lean) = lean(body, normal_b) {
             let by = format!(
-                ": no principal axis is normal to it, the nearest leans by {} degrees",
+                ": no principal axis is normal to it, the nearest is tilted by {} degrees",
                 short(lean)
             );
             leaves(part, "orientation", &by);
@@ -76,7 +76,7 @@ pub(super) fn read(
     }
 }
 
-/// \[degrees\] by how much the nearest principal axis leans, where the normal is none.
+/// \[degrees\] tilt of the nearest principal axis, where the normal is not one.
 fn lean(body: &Body<f64>, normal_b: Vec3<f64>) -> Option<f64> {
     let moment = normal_b.scale(body.inertia);
     let across = moment.cross(normal_b);

@@ -1,6 +1,6 @@
-//! What leaves a plane, and by how much.
+//! Items that leave a plane, and by how much.
 //!
-//! `part of a scene, how far off => words; the table that it stands in => refusal with its place`.
+//! `part of a scene, distance => text; its table => error with its position`.
 
 use crate::error::SceneError;
 use crate::scene::Scene;
@@ -18,7 +18,7 @@ pub enum Part {
     Joint(usize),
     /// A raw element by its row: TSDAs, then points on lines.
     Raw(usize),
-    /// A torsion spring by its row, those that only count turns after those of the file.
+    /// A torsion spring by its row, those that only count revolutions after those of the file.
     TorsionSpring(usize),
     /// A load by its row.
     Load(usize),
@@ -33,26 +33,26 @@ pub enum Part {
 pub struct Departure {
     /// Which.
     pub part: Part,
-    /// The key of its table that says so, where one does.
+    /// The key that causes it, if any.
     pub key: &'static str,
     /// By how much, to be read after its name: "leaves the plane z = 0 by 0.02 m".
     pub problem: String,
 }
 
-/// What leaves the plane that the least of a scene leaves, at least one thing.
+/// The items that leave the best candidate plane; at least one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unplanar {
-    /// What messages call the plane: `z = 0`.
+    /// The name of the plane in messages: `z = 0`.
     pub plane: String,
     /// In the order of gravity, bodies, joints and raw elements, torsion springs, loads, inputs.
     pub departures: Vec<Departure>,
 }
 
-/// Takes each part that leaves the plane, with the key of its table and by how much.
+/// Called for each part that leaves the plane, with the key of its table and the amount.
 pub(super) type Leaves<'l> = dyn FnMut(Part, &'static str, &str) + 'l;
 
 impl Departure {
-    /// What messages call the part, and by how much it leaves the plane.
+    /// The name of the part in messages, and by how much it leaves the plane.
     #[must_use]
     pub fn text(&self, scene: &Scene) -> String {
         let named = |kind: &str, name: Option<&String>| match name {
@@ -74,20 +74,25 @@ impl Departure {
 }
 
 impl Unplanar {
-    /// Refuses the scene at the place of the first thing that leaves the plane.
+    /// Refuses the scene at the first item that leaves the plane.
     pub(crate) fn refuse(&self, scene: &Scene, root: &Table<'_>) -> SceneError {
         let plane = &self.plane;
         let Some(first) = self.departures.first() else {
-            return root.refuse_value("planar", "is of no plane", "a scene that lies in a plane");
+            return root.refuse_value(
+                "planar",
+                "fits no plane",
+                "expected a scene that lies in a \
+                                                                 plane",
+            );
         };
         let more = match self.departures.len() - 1 {
             0 => String::new(),
-            1 => "; 1 other thing leaves it, too".into(),
-            more => format!("; {more} other things leave it, too"),
+            1 => "; 1 other item leaves it as well".into(),
+            more => format!("; {more} other items leave it as well"),
         };
         let help = format!(
-            "with `planar = true` all of a scene lies in one plane and moves along it, here {plane}; \
-             put it there, or leave out `planar`{more}"
+            "with `planar = true` the whole scene must lie and move in one plane, here {plane}; \
+             move it there, or omit `planar`{more}"
         );
         let place = place(first.part, scene).and_then(|(kind, row)| {
             let tables = root.list(kind).ok()?;
@@ -97,7 +102,7 @@ impl Unplanar {
     }
 }
 
-/// The kind of table that a part stands in, and its row among those.
+/// The kind of a part's table, and its row among them.
 fn place(part: Part, scene: &Scene) -> Option<(&'static str, usize)> {
     let lines = &scene.file_lines;
     match part {

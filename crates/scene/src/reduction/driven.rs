@@ -54,7 +54,7 @@ fn torsion_springs(
     for (row, spring) in scene.model.torsions.iter().enumerate() {
         let axis = plane.of_body_inward(spring.a.row(), spring.axis);
         if let Some(lean) = lean(axis) {
-            let by = format!(": its axis leans by {} degrees from the normal", short(lean));
+            let by = format!(": its axis is tilted by {} degrees from the normal", short(lean));
             leaves(Part::TorsionSpring(row), "axis", &by);
         }
         let orientation =
@@ -74,7 +74,7 @@ fn torsion_springs(
     }
 }
 
-/// What an input does in the plane; `leaves` is told the key and by how much it leaves that.
+/// The input in the plane; `leaves` receives the key and the amount by which it leaves the plane.
 fn kind(
     plane: &Plane,
     near: f64,
@@ -84,7 +84,7 @@ fn kind(
     let mut in_plane = |direction: Vec3<f64>| {
         if direction.z.abs() > ALIKE {
             let lean = libm::asin(direction.z.abs().min(1.0)).to_degrees();
-            leaves("axis", &format!(": its axis leans by {} degrees", short(lean)));
+            leaves("axis", &format!(": its axis is tilted by {} degrees", short(lean)));
         }
         flat(direction)
     };
@@ -112,21 +112,21 @@ fn kind(
     }
 }
 
-/// An axis that should be the normal.
+/// An axis that must be the normal.
 fn normal(axis: Vec3<f64>, leaves: &mut dyn FnMut(&'static str, &str)) -> Vec3<f64> {
     if let Some(lean) = lean(axis) {
-        leaves("axis", &format!(": its axis leans by {} degrees from the normal", short(lean)));
+        leaves("axis", &format!(": its axis is tilted by {} degrees from the normal", short(lean)));
     }
     Vec3::new(0.0, 0.0, if axis.z < 0.0 { -1.0 } else { 1.0 })
 }
 
-/// \[degrees\] by how much an axis leans from the normal, where it does.
+/// \[degrees\] tilt of an axis against the normal, if any.
 pub(super) fn lean(axis: Vec3<f64>) -> Option<f64> {
     let beside = libm::hypot(axis.x, axis.y);
     (beside > ALIKE).then(|| libm::atan2(beside, axis.z.abs()).to_degrees())
 }
 
-/// A vector of the world or of a body in the plane's axes.
+/// Converts a vector of the world or of a body to the plane's axes.
 fn within(plane: &Plane, body: BodyIndex, frame: LoadFrame, v: Vec3<f64>) -> Vec3<f64> {
     match frame {
         LoadFrame::World => plane.inward(v),

@@ -1,10 +1,9 @@
-//! The elements of a group as a plane sees them.
+//! The elements of a group in a plane.
 //!
-//! `(model, plane, group) => elements in the plane's axes, directions in which they act; whether what
-//! happens in the plane stays there`. A group stays where its stiffness at rest does not couple the
-//! plane's three freedoms with the three that leave it: a force in the plane then moves nothing out of it.
-//! Dampers are judged alone where there are no springs: those of a guide act on points beside its lines,
-//! across what its springs hold.
+//! `(model, plane, group) => elements in the plane's axes, directions in which they act; whether in-plane motion stays
+//! in the plane`. It does where the group's stiffness at rest does not couple the three in-plane degrees of freedom
+//! with the three others. Dampers are checked only where there are no springs: those of a guide act on points off its
+//! lines, across the directions of its springs.
 
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::{BodyIndex, BodyState, F64, Vec3};
@@ -22,7 +21,7 @@ pub(super) struct Placed<'p> {
 }
 
 impl Placed<'_> {
-    /// Where a point of a body in the plane, in its axes there, lies.
+    /// The position of a point of a body in the plane, given in its axes there.
     pub(super) fn place(&self, body: BodyIndex, point: Vec3<f64>) -> Vec3<f64> {
         match self.states.get(body.row()) {
             Some(state) => state.position + state.orientation.rotation().to_world(point),
@@ -46,7 +45,7 @@ impl Placed<'_> {
         let (stiffness, free_length, line) = match group.law {
             Law::Tsda => model.tsdas.get(row).map(|e| (e.stiffness, e.free_length, None))?,
             Law::PointBushing => model.bushings.get(row).map(|e| (e.stiffness, 0.0, None))?,
-            // In the plane each is its point alone.
+            // In the plane each reduces to its point.
             Law::Revolute => model.revolutes.get(row).map(|e| (e.stiffness, 0.0, None))?,
             Law::Universal => model.universals.get(row).map(|e| (e.stiffness, 0.0, None))?,
             Law::PointOnLine => {
@@ -73,7 +72,7 @@ impl Placed<'_> {
     }
 }
 
-/// An element at rest, in the plane's axes; z is off the plane.
+/// An element at rest, in the plane's axes; z is the distance from the plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
     /// \[m\] its first point, or one of its line.
@@ -84,7 +83,7 @@ pub(super) struct Element {
     pub(super) centre: Vec3<f64>,
     /// \[m\] the second likewise.
     pub(super) tip: Vec3<f64>,
-    /// The direction of its line, of a point on a line.
+    /// The direction of its line, for a point on a line.
     pub(super) line: Option<Vec3<f64>>,
     /// \[N/m\].
     pub(super) stiffness: f64,
@@ -104,17 +103,17 @@ impl Element {
         }
     }
 
-    /// Its direction; `None` where it has no free length, or no direction.
+    /// Its direction; `None` without free length or direction.
     pub(super) fn direction(&self) -> Option<Vec3<f64>> {
         if self.free_length == 0.0 { None } else { unit(self.stretch()) }
     }
 
-    /// Whether it lies in the plane, `near` \[m\] or nearer.
+    /// Whether it lies in the plane within `near` \[m\].
     pub(super) fn is_flat(&self, near: f64) -> bool {
         self.from.z.abs() <= near && self.to.z.abs() <= near
     }
 
-    /// What it does, as springs and dampers along unit directions: (direction, N/m, N·s/m).
+    /// Equivalent springs and dampers along unit directions: (direction, N/m, N·s/m).
     fn acts(&self) -> Vec<(Vec3<f64>, f64, f64)> {
         let (k, c) = (self.stiffness, self.damping);
         match (self.line, self.direction()) {
@@ -126,24 +125,24 @@ impl Element {
     }
 }
 
-/// How a group takes to a plane.
+/// Coupling of a group with a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Coupling {
-    /// \[m\] how far off the plane its in-plane stiffness is centred.
+    /// \[m\] distance of the centre of its in-plane stiffness from the plane.
     pub(super) height: f64,
-    /// \[1\] the largest force or torque (over the size of the group) out of the plane beside that in it
-    /// which goes with it.
+    /// \[1\] largest ratio of an out-of-plane force or torque (over the size of the group) to the in-plane force that
+    /// accompanies it.
     pub(super) share: f64,
 }
 
-/// How far what a group does in the plane and what it does out of it are one; `near` \[m\] is one place.
+/// The coupling of a group's in-plane and out-of-plane forces; points within `near` \[m\] coincide.
 pub(super) fn coupling(elements: &[Element], near: f64) -> Coupling {
     let count = elements.len().max(1) as f64;
     let middle = elements.iter().fold(Vec3::ZERO, |sum, e| sum + e.to) * (1.0 / count);
     let middle = Vec3::new(middle.x, middle.y, 0.0);
     let size = elements.iter().map(|e| e.to - middle).map(|r| libm::sqrt(r.dot(r)));
     let size = size.fold(0.0, f64::max);
-    // Points at one place have no arms; what is left of them is rounding.
+    // Coincident points have no lever arms; the remainder is rounding.
     let inverse = if size > near { 1.0 / size } else { 0.0 };
     let of = |strength: fn(&(Vec3<f64>, f64, f64)) -> f64| {
         let mut block = [[0.0_f64; 3]; 3];

@@ -13,10 +13,10 @@ use crate::reduction::reduced::{Arm, Reduced, reduced};
 use crate::runtime::SceneModel;
 use crate::scene::Scene;
 
-/// What of a joint's strength may act across the plane.
+/// Largest fraction of a joint's force that may act across the plane.
 const ACROSS: f64 = 1e-8;
 
-/// Adds all groups; rows of those that are as stiff at rest only.
+/// Adds all groups; returns the rows of those that are equally stiff at rest only.
 pub(super) fn read(
     scene: &Scene,
     plane: &Plane,
@@ -64,8 +64,8 @@ pub(super) fn read(
     at_rest
 }
 
-/// \[degrees\] by how much the axis of a revolute, the nearer one of a universal joint, leans from the
-/// normal; `None` where it does not, and of joints that need not turn to move in the plane.
+/// \[degrees\] tilt of the axis of a revolute joint, or the nearer axis of a universal joint, against the normal;
+/// `None` without tilt, and for joints that need not rotate to move in the plane.
 fn turns(scene: &Scene, plane: &Plane, joint: usize) -> Option<f64> {
     let joint = scene.joints.get(joint)?;
     if !["revolute", "universal"].contains(&joint.kind) {
@@ -77,28 +77,28 @@ fn turns(scene: &Scene, plane: &Plane, joint: usize) -> Option<f64> {
     (least > ALIKE).then(|| least.to_degrees())
 }
 
-/// Tells of a joint that does not stay in the plane.
+/// Reports a joint that does not stay in the plane.
 fn stays(part: Part, elements: &[Element], turns: Option<f64>, near: f64, leaves: &mut Leaves<'_>) {
     let found = coupling(elements, near);
     if let Some(lean) = turns {
         leaves(
             part,
             "axis",
-            &format!(": its axis leans by {} degrees from the normal", short(lean)),
+            &format!(": its axis is tilted by {} degrees from the normal", short(lean)),
         );
     } else if found.height.abs() > near {
         leaves(part, "at", &format!(" by {} m", short(found.height)));
     } else if found.share > ACROSS {
-        let by = format!(": of a force in it {} acts across it", short(found.share));
+        let by = format!(": a fraction {} of an in-plane force acts across it", short(found.share));
         leaves(part, "axis", &by);
     }
 }
 
-/// Tells of a raw element that does not lie in the plane.
+/// Reports a raw element that does not lie in the plane.
 fn lies(part: Part, elements: &[Element], near: f64, leaves: &mut Leaves<'_>) {
     for element in elements {
         let off = |v: Vec3<f64>| if v.z.abs() > near { Some(v.z) } else { None };
-        // Of a line normal to the plane any point will do.
+        // For a line normal to the plane any point is valid.
         let from = if element.line.is_some_and(|line| line.z.abs() > 0.5) {
             None
         } else {

@@ -52,13 +52,13 @@ enum Known {
     Terms(Box<[Option<Term>; MOST_TERMS]>),
 }
 
-/// Takes the constants of a row in space, and gives them in the plane.
+/// Converts the constants of a row from space to the plane.
 struct Flat<'s> {
     plane: &'s Plane,
-    /// \[m\] one place.
+    /// \[m\] tolerance of coincident points.
     near: f64,
     bodies: [BodyIndex; 2],
-    /// That of the plane, of which the bodies are known.
+    /// The model in the plane, whose bodies are known.
     model: &'s SceneModel<F64>,
     known: VecDeque<Known>,
     /// The first constant that leaves the plane, and by how much.
@@ -87,7 +87,7 @@ impl Flat<'_> {
         let [x, y, z] = self.plane.of_body_inward(a, Vec3::from_f64(normal)).to_f64();
         if z.abs() > ALIKE {
             let degrees = libm::asin(z.abs().min(1.0)).to_degrees();
-            self.leaves(field, format!(": it leans by {} degrees", short(degrees)));
+            self.leaves(field, format!(": it is tilted by {} degrees", short(degrees)));
         }
         [x, y, 0.0]
     }
@@ -96,7 +96,10 @@ impl Flat<'_> {
         let [a, b] = self.bodies;
         let axis = self.plane.of_body_inward(a.row(), Vec3::from_f64(axis));
         if let Some(lean) = lean(axis) {
-            self.leaves(field, format!(": it leans by {} degrees from the normal", short(lean)));
+            self.leaves(
+                field,
+                format!(": it is tilted by {} degrees from the normal", short(lean)),
+            );
         }
         let orientation =
             |body: BodyIndex| self.model.initial.get(body.row()).map(|state| &state.orientation);

@@ -1,10 +1,9 @@
 //! Scenes that move in a plane: recognised, and reduced to three freedoms per body.
 //!
-//! `scene => model in the plane z = 0 and the way back to the world, or what leaves the plane and by how
-//! much`. A scene is planar where bodies, joints and all else lie in one plane, a principal axis of each
-//! body is normal to it, and nothing pushes, pulls or moves out of it. A pin becomes two TSDAs that are as
-//! stiff at rest; what lies in the plane by itself stays as it is. Groups, torsion springs, loads, inputs
-//! and read-outs keep their numbers.
+//! `scene => model in the plane z = 0 and the conversion back to the world, or the items that leave the plane`. A scene
+//! is planar where bodies, joints and everything else lie in one plane, a principal axis of each body is normal to it,
+//! and no force or velocity leaves it. A pin becomes two TSDAs of equal stiffness at rest; elements in the plane stay
+//! unchanged. Groups, torsion springs, loads, inputs and read-outs keep their numbers.
 
 mod bodies;
 mod departure;
@@ -26,16 +25,16 @@ use crate::reduction::bodies::{height, size};
 use crate::runtime::SceneModel;
 use crate::scene::Scene;
 
-/// \[1\] What is nearer than this share of the scene's size lies at one place.
+/// \[1\] Points closer than this fraction of the scene's size coincide.
 const NEAR: f64 = 1e-9;
 
-/// Axes of joints that are tried as the normal, besides those of the world: the most common ones.
+/// Number of the most common joint axes tried as the normal, besides those of the world.
 const MOST_AXES: usize = 3;
 
-/// A scene in a plane, whether or not it asks for that.
+/// Reduces a scene to its plane, with or without `planar = true`.
 ///
 /// # Errors
-/// [`Unplanar`] with all that leaves the plane which the least leaves.
+/// [`Unplanar`] with the items that leave the best candidate plane.
 pub fn reduced(scene: &Scene) -> Result<Planar, Unplanar> {
     let mut least: Option<Unplanar> = None;
     for normal in normals(scene) {
@@ -66,7 +65,7 @@ fn normals(scene: &Scene) -> Vec<Vec3<f64>> {
         let Some(axis) = unit(axis) else { continue };
         let leads = axis.to_f64().into_iter().find(|c| c.abs() > ALIKE).unwrap_or(1.0);
         let axis = if leads < 0.0 { -axis } else { axis };
-        // Axes that are nearly one share a row, or stand in two beside each other, which costs a try.
+        // Nearly equal axes share a row or fall into two adjacent ones, which costs one more try.
         let key = axis.to_f64().map(|c| (c / NEAR.sqrt()).round() as i64);
         counted.entry(key).or_insert((0, axis)).0 += 1;
     }
@@ -82,7 +81,7 @@ fn normals(scene: &Scene) -> Vec<Vec3<f64>> {
     all
 }
 
-/// The scene in a plane of this normal.
+/// The scene in a plane with this normal.
 fn in_plane(scene: &Scene, normal: Vec3<f64>) -> Result<Planar, Unplanar> {
     let axes = Axes::of(normal);
     let size = size(&scene.model);

@@ -1,10 +1,9 @@
-//! A group in a plane: fewer elements that are as stiff at rest.
+//! A group in a plane: fewer elements of equal stiffness at rest.
 //!
-//! `elements => stars of TSDAs, point bushings or points on lines in the plane`. What lies in the plane is
-//! kept as it is. Else elements that are one in the plane add up; along the normal they hold nothing in
-//! it; what leans acts with the part of its direction that lies in it. A star of more than two arms
-//! becomes two along the principal directions of its stiffness `Σ k·u·uᵀ`; points of a line that are as far
-//! along it become one.
+//! `elements => sets of TSDAs, point bushings or points on lines in the plane`. Elements in the plane stay unchanged.
+//! Elements that coincide in the plane are added; elements along the normal are dropped; tilted ones act with their
+//! in-plane component. A set of more than two legs becomes two along the principal directions of its stiffness
+//! `Σ k·u·uᵀ`; points at the same position along a line become one.
 
 use dbd_kernel::Vec3;
 use dbd_kernel::model::Law;
@@ -15,11 +14,11 @@ use crate::reduction::elements::Element;
 /// An element of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arm {
-    /// Where it begins, in the plane.
+    /// Its first endpoint, in the plane.
     pub(super) from: Vec3<f64>,
-    /// Where it ends.
+    /// Its second endpoint.
     pub(super) to: Vec3<f64>,
-    /// The points in their bodies' axes, where these are those of an element.
+    /// The points in their bodies' axes, where they are taken from an element.
     pub(super) points: Option<[Vec3<f64>; 2]>,
     /// \[N/m\].
     pub(super) stiffness: f64,
@@ -27,7 +26,7 @@ pub(super) struct Arm {
     pub(super) damping: f64,
     /// \[m\].
     pub(super) free_length: f64,
-    /// \[m\] what is told of it where it is one of many that two stand for: see [`condensed`].
+    /// \[m\] length used where two legs replace many: see [`condensed`].
     reach: f64,
 }
 
@@ -36,20 +35,20 @@ pub(super) struct Arm {
 pub(super) struct Reduced {
     /// The law of its elements.
     pub(super) law: Law,
-    /// The direction of its lines, where they are some.
+    /// The direction of its lines, if any.
     pub(super) line: Option<Vec3<f64>>,
-    /// Per star its arms.
+    /// The legs of each set.
     pub(super) stars: Vec<Vec<Arm>>,
     /// \[m\] 0 without one.
     pub(super) clearance: f64,
-    /// Whether it does in the plane exactly what it did there, at any stretch.
+    /// Whether it is exactly equivalent in the plane at any deformation.
     pub(super) is_exact: bool,
 }
 
 /// Why a group cannot be reduced, to be read after its name.
 pub(super) type Obstacle = String;
 
-/// A group in the plane; `near` \[m\] is one place.
+/// A group in the plane; points within `near` \[m\] coincide.
 pub(super) fn reduced(
     law: Law,
     elements: &[Element],
@@ -62,11 +61,11 @@ pub(super) fn reduced(
             lines(elements, line, clearance, near)
         }
         (Law::PointOnLine, Some(line)) if 1.0 - line.z.abs() > ALIKE => {
-            Err("has a line that leans against the plane".into())
+            Err("has a line that is tilted against the plane".into())
         }
         (Law::PointBushing, _) => bushings(elements, clearance, near),
         (Law::PointOnLine, _) if elements.iter().all(|e| e.free_length == 0.0) => {
-            // Normal to the plane a line is a point of it.
+            // A line normal to the plane is a point of it.
             bushings(elements, clearance, near)
         }
         _ => stars(elements, clearance, near),
@@ -88,7 +87,8 @@ fn is_near(a: Vec3<f64>, b: Vec3<f64>, near: f64) -> bool {
 fn bushings(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obstacle> {
     if clearance > 0.0 {
         return Err(
-            "has a clearance about a point of the plane, which no element of the plane has".into(),
+            "has a clearance about a point of the plane, which planar elements do not support"
+                .into(),
         );
     }
     let mut arms: Vec<Arm> = Vec::new();
@@ -112,7 +112,7 @@ fn arm(element: &Element, stiffness: f64, damping: f64, free_length: f64) -> Arm
     }
 }
 
-/// Adds an element, to one between the same points where there is one.
+/// Adds an element; merges it with one between the same points.
 fn add(arms: &mut Vec<Arm>, arm: Arm, near: f64) {
     let same = |other: &&mut Arm| {
         is_near(other.from, arm.from, near)
@@ -146,7 +146,7 @@ fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obs
         let free_length =
             if is_parallel { element.free_length } else { element.free_length * share };
         if element.line.is_some() && element.damping > 0.0 {
-            return Err("damps across its springs, which no element of the plane does".into());
+            return Err("damps across its springs, which planar elements do not support".into());
         }
         let own = arm(element, element.stiffness * square, element.damping * square, free_length);
         add(&mut arms, Arm { reach: element.free_length / share, ..own }, near);
@@ -168,25 +168,25 @@ fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obs
         }
     }
     if stars.is_empty() {
-        return Err("holds nothing in the plane".into());
+        return Err("has no stiffness or damping in the plane".into());
     }
     let clearance = if clearance > 0.0 { clearance / lean } else { 0.0 };
     Ok(Reduced { law: Law::Tsda, line: None, stars, clearance, is_exact })
 }
 
-/// The unit direction of an arm.
+/// The unit direction of a leg.
 fn direction(arm: &Arm) -> Vec3<f64> {
     crate::direction::unit(arm.to - arm.from).unwrap_or(Vec3::new(1.0, 0.0, 0.0))
 }
 
-/// Two arms in place of many, or one where the star is stiff in one direction only; `None` where its
-/// dampers have other principal directions than its springs, and where its stiffness and damping are zero, or
-/// too small or too large for their sums: such a star keeps its arms.
+/// Replaces many legs by two, or by one where the set is stiff in one direction only; `None`, which keeps the legs,
+/// where the dampers have other principal directions than the springs, or where stiffness and damping are zero, or too
+/// small or too large for their sums.
 ///
-/// At rest they are as stiff and damp as much in every direction. Their length is free: the mean of
-/// `L0/cos` of the elements, which lean by that cosine. For a pin, K its stiffness, the energy of third
-/// order in a displacement δ is `¼·K·δ³·cos/L0·cos(3·φ)` before and `−½·K·x·y·(x + y)/L` after, whose mean squares over
-/// all directions φ are the same then.
+/// At rest stiffness and damping are equal in every direction. Their length is arbitrary; it is set to the mean of
+/// `L0/cos` of the elements, with the cosine of their tilt. For a pin, K its stiffness, the energy of third order in a
+/// displacement δ is `¼·K·δ³·cos/L0·cos(3·φ)` before and `−½·K·x·y·(x + y)/L` after, whose mean squares over all
+/// directions φ are the same then.
 fn condensed(star: &[Arm]) -> Option<Vec<Arm>> {
     let sum = |strength: fn(&Arm) -> f64| {
         star.iter().fold([0.0; 3], |[xx, xy, yy], arm| {
@@ -233,20 +233,20 @@ fn condensed(star: &[Arm]) -> Option<Vec<Arm>> {
     (!two.is_empty()).then_some(two)
 }
 
-/// Points that are as far along their lines.
+/// Points at the same position along their lines.
 struct Row {
     /// \[m\] along the lines.
     along: f64,
-    /// The one that is stretched most within the plane stands for all.
+    /// The point with the largest in-plane deformation represents all.
     arm: Arm,
-    /// \[m\] from its line to its point, within the plane.
+    /// \[m\] in-plane distance from its line to its point.
     deflection: f64,
-    /// \[m\] where each line lies across.
+    /// \[m\] position of each line across its direction.
     feet: Vec<f64>,
     is_flat: bool,
 }
 
-/// Points on lines that lie in the plane or beside it.
+/// Points on lines in the plane or parallel to it.
 fn lines(
     elements: &[Element],
     line: Vec3<f64>,
@@ -287,7 +287,7 @@ fn lines(
     }
     rows.retain(|row| row.arm.stiffness > 0.0 || row.arm.damping > 0.0 || row.is_flat);
     if rows.is_empty() {
-        return Err("holds nothing in the plane".into());
+        return Err("has no stiffness or damping in the plane".into());
     }
     let is_exact = rows.iter().all(Row::is_exact);
     let stars = rows.into_iter().map(|row| vec![row.settled(line, across)]).collect();
@@ -299,7 +299,7 @@ impl Row {
         self.is_flat && self.feet.len() == 1
     }
 
-    /// Its element, half way between the lines.
+    /// Its element, midway between the lines.
     fn settled(self, line: Vec3<f64>, across: Vec3<f64>) -> Arm {
         if self.is_exact() {
             return self.arm;
@@ -314,7 +314,7 @@ impl Row {
 mod tests {
     use super::*;
 
-    /// A pin's star of three elements, 120 degrees apart.
+    /// The three elements of a pin, 120 degrees apart.
     fn pin(stiffness: f64, damping: f64) -> Vec<Element> {
         let element = |i: f64| {
             let angle = core::f64::consts::TAU * i / 3.0;

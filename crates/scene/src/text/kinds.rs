@@ -16,7 +16,7 @@ use crate::text::value::{Kind, Value};
 pub(crate) struct Direction;
 
 impl Direction {
-    /// Its three numbers as they are written.
+    /// Its three numbers as written.
     pub(crate) fn numbers(value: &Value<'_>) -> Result<[f64; 3], SceneError> {
         let expected = Self.expected();
         let mut vector = [0.0; 3];
@@ -24,14 +24,16 @@ impl Direction {
         for (component, entry) in vector.iter_mut().zip(value.entries(3, &expected)?) {
             let Quantity { value: number, dimension } = Measure.read(&entry)?;
             *component = number;
-            // A 0 is one of any dimension.
+            // A 0 fits any dimension.
             if number == 0.0 && dimension.is_none() {
                 continue;
             }
             let common = *common.get_or_insert(dimension);
             if common != dimension {
-                let help = "the components of a direction are of one dimension, or plain numbers";
-                let problem = format!("is {}, others {}", called(dimension), called(common));
+                let help = "the components of a direction must have one dimension, or be plain \
+                    numbers";
+                let problem =
+                    format!("is {}, but others are {}", called(dimension), called(common));
                 return Err(entry.refuse_with(&problem, help));
             }
         }
@@ -56,7 +58,7 @@ fn called(dimension: Dimension) -> String {
     if dimension.is_none() { "a plain number".into() } else { format!("a value in {dimension}") }
 }
 
-/// A string; with something in it where it is a name.
+/// A string; a name must not be empty.
 #[derive(Clone, Copy)]
 pub(crate) enum Text {
     /// Any string.

@@ -1,7 +1,7 @@
-//! Reading a scene's text: tables that know their place in the file and what they may hold.
+//! Reading a scene's text: tables with their position in the file and their allowed keys.
 //!
-//! `text => tables => values of a kind, or a refusal with line and column`. A [`Kind`] says what
-//! a value must be; a [`Table`] asks for it by key. Nothing here knows of bodies or joints.
+//! `text => tables => values of a kind, or an error with line and column`. A [`Kind`] defines a valid value; a
+//! [`Table`] reads it by key. This module is independent of bodies and joints.
 
 mod kinds;
 mod name;
@@ -27,7 +27,7 @@ pub(crate) fn parse(source: Source<'_>) -> Result<DeTable<'_>, SceneError> {
     parse_at(source, source.text.get(..source.own).unwrap_or(source.text))
 }
 
-/// Parses a text whose places are those of the source.
+/// Parses a text whose positions are those of the source.
 pub(crate) fn parse_at<'t>(source: Source<'t>, text: &'t str) -> Result<DeTable<'t>, SceneError> {
     match DeTable::parse(text) {
         Ok(document) => Ok(document.into_inner()),
@@ -40,57 +40,60 @@ pub(crate) fn parse_at<'t>(source: Source<'t>, text: &'t str) -> Result<DeTable<
     }
 }
 
-/// What is wrong and what would be right, from the parser's message and its place.
+/// Problem and remedy, from the parser's message and its position.
 fn explain(source: Source<'_>, span: &Range<usize>, message: &str) -> (String, String) {
     let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
     let written = source.text.get(span.clone()).unwrap_or_default();
     let help = match (problem, expected) {
-        // `0.5s` is a float with something behind it to the parser.
+        // The parser reads `0.5s` as a float followed by other text.
         ("invalid float" | "invalid integer", "" | "nothing") => {
-            "a number alone is in SI units, e.g. 0.5 or 2e-5; with its unit or in a sum it stands in \
-             quotes: \"20us\", \"30 deg\", \"2 * L\""
+            "write a plain number in SI units, e.g. 0.5 or 2e-5; put a number with a unit or an \
+             expression in quotes: \"20us\", \"30 deg\", \"2 * L\""
                 .into()
         }
         ("duplicate key", _) => match opened_by(source, span) {
             Some(name) => {
                 let name = shortened(name);
-                let problem = format!("`{name}` is opened again, and somewhere by [{name}] alone");
-                return (problem, format!("each of many is opened by [[{name}]], in two brackets"));
+                let problem = format!("`{name}` is defined again, and elsewhere as [{name}]");
+                return (
+                    problem,
+                    format!("start each of them with [[{name}]], in double brackets"),
+                );
             }
-            None => "a key stands once in its table".into(),
+            None => "give each key once per table".into(),
         },
-        // `0 1` is a text without quotes to it.
+        // The parser reads `0 1` as text without quotes.
         ("string values must be quoted", _) if are_numbers(written) => {
             return ("missing comma between array elements".into(), COMMAS.into());
         }
         ("string values must be quoted", _) => {
             return (
-                "a text without quotes".into(),
-                format!("a text stands in quotes: \"{}\"", shortened(written)),
+                "text without quotes".into(),
+                format!("put the text in quotes: \"{}\"", shortened(written)),
             );
         }
         ("unexpected key or value", _) if at(source, span).starts_with(',') => {
-            "a number has a decimal point: 0.5; several stand in brackets: [0, 5]".into()
+            "use a decimal point: 0.5; put several numbers in brackets: [0, 5]".into()
         }
         (problem, _) if problem.starts_with("missing comma") => COMMAS.into(),
         ("unclosed array table" | "unclosed table", _) => {
-            "one of many is opened by two brackets and closed by two: [[body]]".into()
+            "open and close the header with the same number of brackets: [[body]]".into()
         }
-        (_, "" | "nothing") => "see https://toml.io for what TOML allows".into(),
+        (_, "" | "nothing") => "see https://toml.io for the syntax of TOML".into(),
         (_, expected) => format!("expected {expected}"),
     };
     (problem.into(), help)
 }
 
-const COMMAS: &str = "entries of an array and keys within braces are separated by commas: \
+const COMMAS: &str = "separate array entries and keys within braces with commas: \
                       [0, 0, 1], { axis = [0, 0, 1], angle = 0.5 }";
 
-/// The text from a place on.
+/// The text from a position on.
 fn at<'t>(source: Source<'t>, span: &Range<usize>) -> &'t str {
     source.text.get(span.start..).unwrap_or_default()
 }
 
-/// The name in `[NAME]` or `[[NAME]]` where that is what stands at a place.
+/// The name in `[NAME]` or `[[NAME]]` at a position, if any.
 fn opened_by<'t>(source: Source<'t>, span: &Range<usize>) -> Option<&'t str> {
     let before = source.text.get(..span.start)?;
     let line = before.rsplit('\n').next()?;
@@ -98,7 +101,7 @@ fn opened_by<'t>(source: Source<'t>, span: &Range<usize>) -> Option<&'t str> {
     if is_header { source.text.get(span.clone()) } else { None }
 }
 
-/// Whether a text is two numbers or more, with nothing but space between them.
+/// Whether a text is two or more numbers separated only by space.
 fn are_numbers(text: &str) -> bool {
     let words = || text.split_whitespace();
     words().count() > 1 && words().all(|word| word.parse::<f64>().is_ok())

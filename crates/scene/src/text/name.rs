@@ -1,58 +1,59 @@
-//! What a name may be.
+//! Valid names.
 //!
-//! `text => nothing, or what is wrong with it as a name`. A name heads a column of a table, stands in exported
-//! source and in messages: whoever reads it there must see all of it, and a spreadsheet must not compute it.
+//! `text => nothing, or the problem`. A name becomes a column header and appears in exported source and in messages: it
+//! must be visible as a whole, and a spreadsheet must not evaluate it.
 
-/// Bytes of a name in UTF-8: a folder may have it, with room for what systems add; 255 is the end.
+/// Most bytes of a name in UTF-8: file systems allow 255 for a folder, including suffixes.
 const LONGEST: usize = 200;
 
-/// What is wrong with a name.
+/// An invalid name.
 pub(crate) struct NameFault {
-    /// What is wrong, after the key.
+    /// The problem; follows the key.
     pub(crate) problem: String,
-    /// What would be right.
+    /// The remedy.
     pub(crate) help: &'static str,
 }
 
-/// Looks at a text that is to be a name.
+/// Checks a name.
 ///
 /// # Errors
 /// [`NameFault`], where the text cannot be a name.
 pub(crate) fn check_name(text: &str) -> Result<(), NameFault> {
     let wrong = |problem: &str, help| Err(NameFault { problem: problem.into(), help });
     if text.trim().is_empty() {
-        return wrong("is empty", "a name in quotes, not empty");
+        return wrong("is empty", "give a name in quotes");
     }
     if has_invisible(text) {
         return wrong(
-            "holds a line break or another invisible character",
-            "a name is one line of visible text: it heads a column, and stands in exported source",
+            "contains a line break or another invisible character",
+            "use one line of visible text: a name becomes a column header and appears in exported \
+             source",
         );
     }
     if text.starts_with(['=', '+', '-', '@']) {
         return wrong(
             "begins with `=`, `+`, `-` or `@`",
-            "a name heads a column of a table, and spreadsheets take such a head for a formula: begin \
-             with a letter",
+            "begin with a letter: a name becomes a column header, which spreadsheets would read as \
+             a formula",
         );
     }
     if text.len() > LONGEST {
         return wrong(
-            &format!("is a name of {} bytes", text.len()),
-            "a name has at most 200 bytes: as many letters of English, half as many of most other alphabets",
+            &format!("is {} bytes long", text.len()),
+            "use at most 200 bytes: 200 letters of English, half as many of most other alphabets",
         );
     }
     Ok(())
 }
 
-/// Whether a text may be the name of something in a scene.
+/// Whether a text is a valid name in a scene.
 #[must_use]
 pub fn is_name(text: &str) -> bool {
     check_name(text).is_ok()
 }
 
-/// Whether a text holds a character that nobody sees. Joiners and variation selectors are part of how some
-/// scripts and pictographs are spelt, but only behind a character of such a script.
+/// Whether a text contains an invisible character. Joiners and variation selectors are part of the spelling of some
+/// scripts and pictographs, but only after a character of such a script.
 fn has_invisible(text: &str) -> bool {
     let mut before = None;
     text.chars().any(|c| {
@@ -66,9 +67,9 @@ fn is_spelling(c: char) -> bool {
     matches!(c, '\u{200c}' | '\u{200d}' | '\u{fe00}'..='\u{fe0f}')
 }
 
-/// Control characters, line and paragraph separators, blanks that no text library trims, and what Unicode calls
-/// default-ignorable (`Default_Ignorable_Code_Point` in its `DerivedCoreProperties.txt`), which includes what turns
-/// the direction of writing.
+/// Control characters, line and paragraph separators, blanks that text libraries do not trim, and Unicode's
+/// default-ignorable code points (`Default_Ignorable_Code_Point` in `DerivedCoreProperties.txt`), which include changes
+/// of the writing direction.
 fn is_invisible(c: char) -> bool {
     c.is_control()
         || matches!(c,
@@ -126,7 +127,7 @@ mod tests {
             '\u{85}',
         ];
         for c in invisible {
-            // Alone, and so that two names look like one.
+            // Alone, and such that two names look alike.
             for name in [c.to_string(), format!("arm{c}"), format!("{c}arm"), format!("a{c}rm")] {
                 assert!(!is_name(&name), "{name:?}");
             }

@@ -1,7 +1,7 @@
 //! Numbers, with or without units: plain ones in SI, or texts such as `"30 deg"` and `"2 * L"`.
 //!
-//! `value => number in the key's unit`. What a plain number is stays as it was written to the last
-//! bit; a text is of the key's dimension, or a plain number, too.
+//! `value => number in the key's unit`. A plain number keeps its bits; a text must have the key's dimension or be a
+//! plain number.
 
 use toml::de::DeValue;
 
@@ -10,7 +10,7 @@ use crate::quantity::{Dimension, Quantity, dimension_of, within};
 use crate::shortened::shortened;
 use crate::text::value::{Kind, Value};
 
-/// A finite number; integers are numbers, too.
+/// A finite number, including integers.
 #[derive(Clone, Copy)]
 pub(crate) struct Number {
     unit: &'static str,
@@ -101,14 +101,12 @@ impl Kind for Number {
     }
 }
 
-/// The refusal of a value of another dimension than its key's.
+/// The error of a value with the wrong dimension.
 fn unlike(value: &Value<'_>, found: Dimension, own: Dimension, expected: &str) -> SceneError {
     let problem = format!("is {}, a value in {found}", shortened(value.written()));
     let help = match own.angles_to(found) {
-        Some(1..) => {
-            "; an angle is a dimension: divide by `rad`, or by `turn` to count whole turns"
-        }
-        Some(_) => "; an angle is a dimension: multiply by `rad`, or by `turn` for whole turns",
+        Some(1..) => "; an angle is a dimension: divide by `rad`, or by `turn` for revolutions",
+        Some(_) => "; an angle is a dimension: multiply by `rad`, or by `turn` for revolutions",
         None if own.is_none() => ", without a unit: divide by it",
         None => "",
     };
@@ -151,7 +149,7 @@ impl Kind for Measure {
     }
 }
 
-/// The value of a number or a text; an infinite one where a number is too large to write down.
+/// The value of a number or a text; infinite where a number is too large.
 fn read(value: &Value<'_>, expected: &str) -> Result<Quantity, SceneError> {
     if let Some(text) = value.get().as_str() {
         return within(text, value.source.scope)
@@ -161,7 +159,7 @@ fn read(value: &Value<'_>, expected: &str) -> Result<Quantity, SceneError> {
     Ok(Quantity { value, dimension: Dimension::default() })
 }
 
-/// The number nearest to what is written; one too large to write down is infinite.
+/// The number nearest to the text; infinite on overflow.
 fn number(value: &Value<'_>) -> Option<f64> {
     match value.get() {
         DeValue::Float(float) => float.as_str().parse().ok(),

@@ -1,7 +1,7 @@
-//! A table that refuses keys it may not hold.
+//! A table that refuses unknown keys.
 //!
-//! Unknown keys are refused before any key is read: where a required key is misspelled, the
-//! message names the misspelling rather than an absence.
+//! Unknown keys are refused before any key is read: if a required key is misspelled, the message reports the
+//! misspelling rather than the missing key.
 
 use std::cell::RefCell;
 use std::ops::Range;
@@ -15,20 +15,20 @@ use crate::shortened::shortened;
 use crate::text::name::{check_name, is_name};
 use crate::text::value::{Kind, Value};
 
-/// A table and what messages call it.
+/// A table with its name in messages.
 pub(crate) struct Table<'t> {
     source: Source<'t>,
     entries: &'t DeTable<'t>,
     span: Range<usize>,
     /// ``body `crank` ``, or `body 1` where it has no name.
     label: String,
-    /// What it has where it gives nothing of its own: the first of these goes before the next.
+    /// The defaults, used for keys that it does not give; earlier ones take precedence.
     defaults: Vec<&'t DeTable<'t>>,
-    /// The keys that it may have, once they are known: a default that is none of them is not its.
+    /// The allowed keys, once known; defaults with other keys are ignored.
     allowed: RefCell<Option<Vec<&'static str>>>,
 }
 
-/// What a key says in another way: where a table gives it, defaults of these are not its.
+/// Keys with their alternatives: where a table gives the key, defaults of the alternatives are ignored.
 const ALTERNATIVES: &[(&str, &[&str])] = &[
     ("damping", &["damping_ratio", "frequency"]),
     ("damping_ratio", &["damping"]),
@@ -51,7 +51,7 @@ pub(crate) fn root<'t>(source: Source<'t>, document: &'t DeTable<'t>) -> Table<'
 }
 
 impl<'t> Value<'t> {
-    /// A table within the table it belongs to.
+    /// A nested table.
     pub(crate) fn table(&self, expected: &str) -> Result<Table<'t>, SceneError> {
         match self.get() {
             DeValue::Table(entries) => {
@@ -62,7 +62,7 @@ impl<'t> Value<'t> {
         }
     }
 
-    /// A table that messages call by a name of its own.
+    /// A nested table with a custom name in messages.
     pub(crate) fn labelled(&self, expected: &str, label: &str) -> Result<Table<'t>, SceneError> {
         match self.get() {
             DeValue::Table(entries) => {
@@ -89,7 +89,7 @@ impl<'t> Table<'t> {
         Self { label: label.to_owned(), ..self }
     }
 
-    /// Gives it the defaults of its kind, which stand in `[defaults.kind]` of the scene.
+    /// Adds the defaults of its kind from `[defaults.kind]` of the scene.
     pub(crate) fn with_defaults(
         mut self,
         root: &Table<'t>,
@@ -111,7 +111,7 @@ impl<'t> Table<'t> {
         Ok(self)
     }
 
-    /// A key with its value: its own, or the first default that nothing before it replaces.
+    /// A key with its value: its own, or the first default that applies.
     fn entry(&self, key: &str) -> Option<(&'t Spanned<DeString<'t>>, &'t Spanned<DeValue<'t>>)> {
         let own = self.entries.get_key_value(key);
         if own.is_some() || self.defaults.is_empty() {
@@ -137,12 +137,12 @@ impl<'t> Table<'t> {
         None
     }
 
-    /// What it holds.
+    /// Its entries.
     pub(crate) fn entries(&self) -> &'t DeTable<'t> {
         self.entries
     }
 
-    /// What messages call it.
+    /// Its name in messages.
     pub(crate) fn label(&self) -> &str {
         &self.label
     }
@@ -206,7 +206,7 @@ impl<'t> Table<'t> {
         Err(self.source.refuse(unknown.span(), message, help))
     }
 
-    /// Whether the scene's parameters have a key, of which `--set` needs the whole path.
+    /// Whether the scene's parameters have a key; `--set` then needs the full path.
     fn has_parameter(&self, key: &str) -> bool {
         let parameters = self.entries.iter().filter(|(name, _)| name.get_ref() == "parameters");
         parameters
@@ -214,17 +214,17 @@ impl<'t> Table<'t> {
             .any(|table| table.contains_key(key))
     }
 
-    /// Whether a key is there.
+    /// Whether a key is present.
     pub(crate) fn has(&self, key: &str) -> bool {
         self.entry(key).is_some()
     }
 
-    /// Whether it gives a key of its own, not by default.
+    /// Whether the table itself gives a key, not its defaults.
     pub(crate) fn gives(&self, key: &str) -> bool {
         self.entries.contains_key(key)
     }
 
-    /// The value of a key, where it is there.
+    /// The value of a key, if present.
     pub(crate) fn value(&self, key: &str) -> Option<Value<'t>> {
         self.entry(key).map(|(_, entry)| Value {
             source: self.source,
@@ -234,7 +234,7 @@ impl<'t> Table<'t> {
         })
     }
 
-    /// All keys with their places and values, in the order of the file.
+    /// All keys with their positions and values, in the order of the file.
     pub(crate) fn values(&self) -> Vec<(Range<usize>, &'t str, Value<'t>)> {
         let of = |entries: &'t DeTable<'t>| {
             let keys = entries.keys().map(|key| (key.span(), key.get_ref().as_ref()));
@@ -243,7 +243,7 @@ impl<'t> Table<'t> {
             keys
         };
         let mut keys = of(self.entries);
-        // Its own, then those that it has by default.
+        // Its own keys, then the defaults.
         for defaults in &self.defaults {
             for (place, key) in of(defaults) {
                 if keys.iter().all(|(_, known)| *known != key) {
@@ -255,7 +255,7 @@ impl<'t> Table<'t> {
         keys.into_iter().filter_map(value).collect()
     }
 
-    /// A key that must be there.
+    /// A required key.
     pub(crate) fn required<K: Kind>(&self, key: &str, kind: K) -> Result<K::Output, SceneError> {
         match self.value(key) {
             Some(value) => kind.read(&value),
@@ -263,12 +263,12 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// The refusal of a table without a key.
+    /// The error of a missing key.
     pub(crate) fn missing(&self, key: &str, expected: &str) -> SceneError {
         self.refuse(&format!("has no `{key}`"), format!("add `{key}`: {expected}"))
     }
 
-    /// A key that may be absent.
+    /// An optional key.
     pub(crate) fn optional<K: Kind>(
         &self,
         key: &str,
@@ -277,20 +277,19 @@ impl<'t> Table<'t> {
         self.value(key).map(|value| kind.read(&value)).transpose()
     }
 
-    /// The tables of `[[key]]`, called by their names or `key 1` and so on; none where the key is absent.
+    /// The tables of `[[key]]`, labelled by their names or `key 1` and so on; empty where the key is absent.
     pub(crate) fn list(&self, key: &str) -> Result<Vec<Table<'t>>, SceneError> {
         let Some(value) = self.value(key) else { return Ok(Vec::new()) };
-        let expected = format!("an array of tables, each opened by [[{key}]]");
+        let expected = format!("an array of tables, each written as [[{key}]]");
         if matches!(value.get(), DeValue::Table(_)) && value.written().starts_with('[') {
-            let problem = format!("is opened by [{key}], in one bracket");
-            let help =
-                format!("each {key} is opened by [[{key}]], in two brackets: there may be many");
+            let problem = format!("is written as [{key}], in single brackets");
+            let help = format!("write each {key} as [[{key}]], in double brackets");
             return Err(value.refuse_with(&problem, help));
         }
         let mut tables = Vec::new();
         for (i, entry) in value.array(&expected)?.iter().enumerate() {
             let DeValue::Table(entries) = entry.get() else {
-                return Err(entry.wrong_type(&format!("a table, opened by [[{key}]]")));
+                return Err(entry.wrong_type(&format!("a table, written as [[{key}]]")));
             };
             let label = match entries.get("name").and_then(|name| name.get_ref().as_str()) {
                 Some(name) if is_name(name) => format!("{key} `{}`", shortened(name)),
@@ -302,7 +301,7 @@ impl<'t> Table<'t> {
         Ok(tables)
     }
 
-    /// All its values by their keys, which are names, in the order of the file.
+    /// All values with their keys as names, in the order of the file.
     pub(crate) fn named(&self) -> Result<Vec<(String, Value<'t>)>, SceneError> {
         let mut entries: Vec<_> = self.entries.iter().collect();
         entries.sort_by_key(|(key, _)| key.span().start);
@@ -339,7 +338,7 @@ impl<'t> Table<'t> {
         self.source.text.get(between).unwrap_or_default().matches('\n').count()
     }
 
-    /// Where the table begins, in bytes.
+    /// The byte at which the table begins.
     pub(crate) fn start(&self) -> usize {
         self.span.start
     }

@@ -1,4 +1,4 @@
-//! One value of a table, with its place and a name for messages.
+//! One value of a table, with its position and a name for messages.
 
 use std::ops::Range;
 
@@ -8,23 +8,23 @@ use toml::de::DeValue;
 use crate::error::{SceneError, Source};
 use crate::quantity::Fault;
 
-/// What a value must be.
+/// A kind of value.
 pub(crate) trait Kind {
-    /// What it is read as.
+    /// The type of the result.
     type Output;
-    /// What would be right, to follow `… must be`: `a number > 0 in kg`.
+    /// The expectation, following `… must be`: `a number > 0 in kg`.
     fn expected(&self) -> String;
     /// Reads it.
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError>;
 }
 
-/// A value and what messages call it.
+/// A value with its name in messages.
 pub(crate) struct Value<'t> {
     pub(crate) source: Source<'t>,
     pub(crate) entry: &'t Spanned<DeValue<'t>>,
     /// The key, with an index for an entry of an array: `` `points`[1] ``.
     pub(crate) key: String,
-    /// What it belongs to: ``body `crank` ``.
+    /// Its owner: ``body `crank` ``.
     pub(crate) owner: String,
 }
 
@@ -34,12 +34,12 @@ impl<'t> Value<'t> {
         self.entry.get_ref()
     }
 
-    /// Its place.
+    /// Its position.
     pub(crate) fn span(&self) -> Range<usize> {
         self.entry.span()
     }
 
-    /// It as it is written.
+    /// The value as written.
     pub(crate) fn written(&self) -> &'t str {
         self.source.text.get(self.span()).unwrap_or_default()
     }
@@ -50,17 +50,17 @@ impl<'t> Value<'t> {
         self.refuse_with(problem, format!("{key} of {owner} must be {expected}"))
     }
 
-    /// Refuses it with a help of its own.
+    /// Refuses it with a custom help text.
     pub(crate) fn refuse_with(&self, problem: &str, help: impl Into<String>) -> SceneError {
         let Self { key, owner, .. } = self;
         self.source.refuse(self.span(), format!("{key} of {owner} {problem}"), help)
     }
 
-    /// Refuses a part of its text; `text` is what it reads as.
+    /// Refuses a part of its text; `text` is the string value.
     pub(crate) fn refuse_within(&self, text: &str, fault: &Fault, expected: &str) -> SceneError {
         let Self { key, owner, .. } = self;
         let span = self.span();
-        // Where letters are written otherwise, as by \u0041, the whole text is shown.
+        // With escapes such as \u0041 the whole text is shown.
         let start = Some(text).filter(|text| !text.is_empty());
         let start = start.and_then(|text| Some(span.start + self.written().find(text)?));
         let place = start.map(|start| start + fault.place.start..start + fault.place.end);

@@ -1,6 +1,7 @@
-//! The comments of a scene's text, by what they stand before or behind.
+//! The comments of a scene's text, by the item that they precede or follow.
 //!
-//! `(text, byte) => comment lines`. Those above the first key with an empty line behind are the head of the file.
+//! `(text, byte) => comment lines`. Comments above the first key that are followed by an empty line are the head of the
+//! file.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -8,7 +9,7 @@ use std::collections::BTreeSet;
 /// The comments of a text.
 pub(super) struct Comments<'t> {
     text: &'t str,
-    /// Where lines begin whose comments are written already.
+    /// Starts of lines whose comments are already written.
     taken: RefCell<BTreeSet<usize>>,
 }
 
@@ -43,7 +44,7 @@ impl<'t> Comments<'t> {
     /// The comment lines that end on the line before the one of a byte.
     pub(super) fn before(&self, byte: usize) -> String {
         let Some(mut start) = self.line_start(byte) else { return String::new() };
-        // What stands behind something else on a line has no comment of its own before it.
+        // An item that follows another one on its line has no preceding comment.
         let lead = self.text.get(start..byte).unwrap_or_default();
         if !lead.trim_matches([' ', '\t', '{', '[']).is_empty() {
             return String::new();
@@ -61,7 +62,7 @@ impl<'t> Comments<'t> {
         lines.iter().rev().map(|line| format!("{line}\n")).collect()
     }
 
-    /// The comment behind what ends at a byte, on its line, and that no other has.
+    /// The comment after the item that ends at a byte, on the same line, if not yet taken.
     pub(super) fn behind(&self, byte: usize) -> String {
         let Some(rest) = self.text.get(byte..) else { return String::new() };
         let line = rest.split('\n').next().unwrap_or_default();
@@ -74,7 +75,7 @@ impl<'t> Comments<'t> {
         }
     }
 
-    /// Where the header that begins at a byte ends; the byte itself where none does.
+    /// The end of the header that begins at a byte; the byte itself without a header.
     pub(super) fn end_of_header(&self, byte: usize) -> usize {
         let Some(rest) = self.text.get(byte..).filter(|rest| rest.starts_with("[[")) else {
             return byte;
@@ -82,7 +83,7 @@ impl<'t> Comments<'t> {
         rest.find("]]").map_or(byte, |end| byte + end + 2)
     }
 
-    /// Where the line of a byte begins; none beyond the text, as changes of it lie.
+    /// The start of a byte's line; `None` beyond the file's text, where changes are.
     fn line_start(&self, byte: usize) -> Option<usize> {
         let before = self.text.get(..byte)?;
         Some(before.rfind('\n').map_or(0, |newline| newline + 1))

@@ -1,14 +1,14 @@
-//! Numbers, vectors and texts as TOML has them, such that they read back to the same bits.
+//! TOML literals of numbers, vectors and texts that read back to the same bits.
 //!
-//! Directions and quaternions are brought to unit length when they are read, which may change their last bits: where
-//! it does, one of another length is written that comes out right.
+//! Directions and quaternions are normalised when they are read, which may change their last bits; where it does, a
+//! scaled one is written that reads back correctly.
 
 use dbd_kernel::Vec3;
 
 use crate::direction::unit;
 use crate::orientation::normalised;
 
-/// Lengths that are tried.
+/// Number of lengths tried.
 const LENGTHS: u32 = 4096;
 
 /// A number: the shortest text that reads back.
@@ -40,7 +40,7 @@ pub(super) fn orientation(q: [f64; 4]) -> String {
     format!("{{ quaternion = {} }}", list(&scaled(&q, fits)))
 }
 
-/// The numbers times the first factor with which they fit.
+/// The numbers times the first factor that fits.
 fn scaled(numbers: &[f64], fits: impl Fn(&[f64]) -> bool) -> Vec<f64> {
     let times = |i: u32| -> Vec<f64> {
         let factor = 1.0 + f64::from(i) / f64::from(LENGTHS);
@@ -54,7 +54,7 @@ fn list(numbers: &[f64]) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
-/// A number as TOML writes it in decimal.
+/// Reads a decimal TOML number.
 pub(super) fn read_number(text: &str) -> Option<f64> {
     text.replace('_', "").parse().ok()
 }
@@ -85,7 +85,7 @@ pub(super) fn basic_string(text: &str) -> String {
     quoted + "\""
 }
 
-/// A key, in quotes where it has to be.
+/// A key, quoted where necessary.
 pub(super) fn key(text: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     if !text.is_empty() && text.chars().all(bare) { text.to_owned() } else { basic_string(text) }

@@ -1,8 +1,8 @@
-//! The long form of a scene: every pose and place a number in SI, nothing left to assemble or to look up.
+//! The long form of a scene: every pose and position is a number in SI, with nothing left to assemble or look up.
 //!
-//! `(tables, what values stand for, model) => text that reads back to the same bits`. Comments that stand before or
-//! behind what is still there stay. What it leaves out: `[points]`, `[parameters]`, `[assemble]`, `[defaults]`,
-//! `settle`, and what of a body gives its pose and inertia otherwise. Bodies that settled have a table in `[start]`.
+//! `(tables, values of names, model) => text that reads back to the same bits`. Comments before or after remaining
+//! items are kept. It omits `[points]`, `[parameters]`, `[assemble]`, `[defaults]`,
+//! `settle`, and other forms of a body's pose and inertia. Bodies that settled have a table in `[start]`.
 
 mod comments;
 mod literal;
@@ -21,10 +21,10 @@ use crate::text::{Kind as _, Measure, Table, Value};
 use crate::write::comments::Comments;
 use crate::write::literal::{basic_string, direction, key, number, orientation, vector};
 
-/// What the long form has no use for.
+/// Tables and keys that the long form omits.
 const LEFT_OUT: &[&str] = &["points", "parameters", "assemble", "defaults", "settle", "start"];
 
-/// Kinds of which there are many, in the order of the reference.
+/// Lists of tables, in the order of the reference.
 const MANY: &[&str] = &[
     "body",
     "joint",
@@ -37,7 +37,7 @@ const MANY: &[&str] = &[
     "geometry",
 ];
 
-/// Values that are texts; others that are given as texts are numbers.
+/// Keys with text values; other texts are numbers.
 const TEXTS: &[&str] = &[
     "name",
     "description",
@@ -55,14 +55,14 @@ const TEXTS: &[&str] = &[
     "realisation",
 ];
 
-/// What a body has in the long form, besides its name.
+/// Keys of a body in the long form, besides its name.
 const OF_A_BODY: &[&str] =
     &["mass", "inertia", "position", "orientation", "velocity", "angular_velocity"];
 
-/// No turn.
+/// No rotation.
 const UNTURNED: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
 
-/// A scene that is written.
+/// Writer of a scene.
 pub(crate) struct Writer<'w, 't> {
     root: &'w Table<'t>,
     scene: &'w Scene,
@@ -72,7 +72,7 @@ pub(crate) struct Writer<'w, 't> {
 }
 
 impl<'w, 't> Writer<'w, 't> {
-    /// Of the whole scene; `own` is the text of its file.
+    /// A writer of the whole scene; `own` is the text of its file.
     pub(crate) fn new(
         root: &'w Table<'t>,
         scene: &'w Scene,
@@ -115,7 +115,7 @@ impl<'w, 't> Writer<'w, 't> {
         Ok(self.text)
     }
 
-    /// The states at t = 0 that are not those at which the joints are assembled.
+    /// Writes the states at t = 0 that differ from those at which the joints are assembled.
     fn starts(&mut self) {
         let states = self.scene.model.initial.iter().zip(&self.scene.assembled_states);
         for ((now, assembled), name) in states.zip(&self.scene.body_names) {
@@ -135,7 +135,7 @@ impl<'w, 't> Writer<'w, 't> {
         }
     }
 
-    /// A line with the comments around the place where it stood.
+    /// Writes a line with the comments around its original position.
     fn line(&mut self, start: usize, end: usize, line: &str) {
         self.text.push_str(&self.comments.before(start));
         self.text.push_str(line);
@@ -143,7 +143,7 @@ impl<'w, 't> Writer<'w, 't> {
         self.text.push('\n');
     }
 
-    /// The keys of a table, those that are wanted.
+    /// Writes the selected keys of a table.
     fn table(
         &mut self,
         table: &Table<'t>,
@@ -158,7 +158,7 @@ impl<'w, 't> Writer<'w, 't> {
         Ok(())
     }
 
-    /// A body: what is given as a number stays as it is where it is still that.
+    /// Writes a body; numbers that are still valid are kept as written.
     fn body(&mut self, table: &Table<'t>, row: usize) -> Result<(), SceneError> {
         self.table(table, |key| key == "name")?;
         let model: &SceneModel<F64> = &self.scene.model;
@@ -183,7 +183,7 @@ impl<'w, 't> Writer<'w, 't> {
             match entry {
                 Some((place, _, value)) => {
                     let written = self.value(name, &value)?;
-                    // A quaternion that is written otherwise is another text of the same bits.
+                    // A quaternion may be written differently with the same bits.
                     let kept = match (*name, &now) {
                         ("orientation", _) => self.is_turned_as(&written, row),
                         (_, Some(now)) => is_same(&written, now),
@@ -202,14 +202,14 @@ impl<'w, 't> Writer<'w, 't> {
         Ok(())
     }
 
-    /// Whether a written orientation is that of a body.
+    /// Whether a written orientation equals that of a body.
     fn is_turned_as(&self, written: &str, row: usize) -> bool {
         let own = self.scene.assembled_states[row].orientation;
         let bits = |q: [f64; 4]| q.map(f64::to_bits);
         literal::read_orientation(written).is_some_and(|q| bits(q) == bits(own.to_f64()))
     }
 
-    /// A joint; a spider that was set moving says how it turns.
+    /// Writes a joint; a moving spider gets its angular velocity.
     fn joint(&mut self, table: &Table<'t>, row: usize) -> Result<(), SceneError> {
         crate::joints::allow(table)?;
         let info = self.scene.joints.get(row);
@@ -230,7 +230,7 @@ impl<'w, 't> Writer<'w, 't> {
         Ok(())
     }
 
-    /// A solid; a block of a body with other axes than the written ones is turned back.
+    /// Writes a solid; a block is rotated back if the body's axes differ from the written ones.
     fn geometry(&mut self, table: &Table<'t>, row: usize) -> Result<(), SceneError> {
         crate::geometry::allow(table)?;
         self.table(table, |_| true)?;
@@ -257,7 +257,7 @@ impl<'w, 't> Writer<'w, 't> {
         }
         Ok(match value.get() {
             DeValue::String(text) if TEXTS.contains(&name) => basic_string(text),
-            // What is no number is a name of something else.
+            // A text that is not a number is a name.
             DeValue::String(text) => match Measure.read(value) {
                 Ok(quantity) => number(quantity.value),
                 Err(_) => basic_string(text),
@@ -283,7 +283,7 @@ impl<'w, 't> Writer<'w, 't> {
     }
 }
 
-/// Whether two texts are of the same numbers.
+/// Whether two texts are the same numbers.
 fn is_same(a: &str, b: &str) -> bool {
     let numbers = |text: &str| {
         let parts = text.trim_matches(['[', ']', ' ']).split(',');

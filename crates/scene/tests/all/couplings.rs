@@ -119,7 +119,7 @@ fn what_is_no_coupling_is_refused_with_a_remedy() {
         (pair("{ joint = \"pinion\", factor = \"1 mm\" }"), ["factor", "number"]),
         (pair("{ joint = \"rack\", factor = \"1 mm/rad\" }"), ["factor", "rad/m"]),
         (pair("{ joint = \"wheel\", factor = 2 }"), ["a second time", "sum"]),
-        (pair("{ joint = \"ball\", factor = 2 }"), ["spherical joint `ball`", "one axis"]),
+        (pair("{ joint = \"ball\", factor = 2 }"), ["spherical joint `ball`", "needs a revolute"]),
         (pair("{ joint = \"nut\", factor = 2 }"), ["freedom", "slide"]),
         (
             pair("{ joint = \"pinion\", freedom = \"turn\", factor = 2 }"),

@@ -211,7 +211,7 @@ fn an_anchor_moves_the_grounds_end_of_its_elements() {
     let twice = input("a", "type = \"anchor\"\ntarget = \"cord\"\naxis = [0, 0, 1]")
         + &input("b", "type = \"anchor\"\ntarget = \"cord\"\naxis = [0, 1, 0]");
     let error = Scene::parse(&format!("{BODIES}{twice}"), "twice.toml").unwrap_err();
-    assert!(error.message().contains("which input 1 moves already"), "{}", error.message());
+    assert!(error.message().contains("which input 1 already moves"), "{}", error.message());
 }
 
 #[test]

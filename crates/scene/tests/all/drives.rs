@@ -244,9 +244,9 @@ fn a_range_bounds_what_a_caller_sets() {
     let of = |scene: &Scene| Plant::new(&scene.model, Leapfrog, 1e-4).unwrap().fingerprint();
     assert_ne!(of(&bounded), of(&free));
     for (more, part) in [
-        ("range = [1, -1]\nvalue = 0", "wrong way round"),
-        ("range = [1, 2]", "does not hold the value 0"),
-        ("range = [1, 2]\nvalue = 3", "beyond `range`"),
+        ("range = [1, -1]\nvalue = 0", "wrong order"),
+        ("range = [1, 2]", "does not contain the value 0"),
+        ("range = [1, 2]\nvalue = 3", "outside `range`"),
         ("range = [1]", "range"),
         ("range = [-1, 1]\ntable = [[0, 0], [1, 0.5]]", "contradicts `table`"),
         ("range = [-1, 1]\nsine = { amplitude = 0.5, frequency = 1 }", "contradicts `sine`"),

@@ -162,8 +162,8 @@ fn what_is_no_solid_is_refused_with_line_and_remedy() {
         (
             "body = \"arm\"\nshape = \"link\"\nfrom = \"A\"\nto = \"A\"\nradius = 1",
             20,
-            "is where",
-            "ball",
+            "coincides with",
+            "sphere",
         ),
         (
             "body = \"arm\"\nshape = \"link\"\nfrom = \"A\"\nto = \"Q\"\nradius = 1",
@@ -171,7 +171,7 @@ fn what_is_no_solid_is_refused_with_line_and_remedy() {
             "names no point",
             "\"A\"",
         ),
-        ("body = \"arm\"\nshape = \"cylinder\"\nradius = 1", 16, "where it lies", "`axis`"),
+        ("body = \"arm\"\nshape = \"cylinder\"\nradius = 1", 16, "has no position", "`axis`"),
         (
             "body = \"arm\"\nshape = \"cylinder\"\nradius = 1\naxis = [0, 0, 0]\nlength = 1",
             20,
@@ -208,7 +208,12 @@ fn what_is_no_solid_is_refused_with_line_and_remedy() {
             "no key `color`",
             "`colour`?",
         ),
-        ("body = \"arm\"\nshape = \"sphere\"\nradius = 1e200", 16, "out of reach", "1e150"),
+        (
+            "body = \"arm\"\nshape = \"sphere\"\nradius = 1e200",
+            16,
+            "exceeds the range of coordinates",
+            "1e150",
+        ),
     ] {
         let text = with(&format!("[[geometry]]\n{geometry}\n"));
         let error = Scene::parse(&text, "a.toml").expect_err(geometry);

@@ -13,22 +13,31 @@ type Case = (&'static str, &'static str, &'static str, &'static [&'static str]);
 const CASES: &[Case] = &[
     // 30 degrees, written as such.
     ("four-bar", "angle = -0.5235987755982989", "angle = -30",
-        &["body `crank` (line 26): `angle` of its orientation is -30 rad, more than a whole turn: -30 degrees are -0.5236 rad"]),
+        &["body `crank` (line 26): `angle` of its orientation is -30 rad, more than one \
+           revolution: -30 deg would be -0.5236 rad"]),
     ("four-bar", "{ axis = [0, 0, 1], angle = -0.5235987755982989 }", "{ euler_321 = [-0.5235987755982989, 0, 180] }",
-        &["body `crank` (line 26): `euler_321` of its orientation is 180 rad, more than a whole turn: 180 degrees are 3.14 rad"]),
+        &["body `crank` (line 26): `euler_321` of its orientation is 180 rad, more than one \
+           revolution: 180 deg would be 3.14 rad"]),
     // A pin 5 cm off the end of its rod.
     ("crank-slider", "at = [0.0, 0.05, 0.0]", "at = [0.0, 0.1, 0.0]",
-        &["joint `crank pin` (line 52): lies 0.1029 m from the centre of mass of `rod`, 1.7 times as far as a body of that mass and inertia reaches: is it the right body, and `at` the right place?"]),
+        &["joint `crank pin` (line 52): lies 0.1029 m from the centre of mass of `rod`, 1.7 times \
+           the extent that its mass and inertia imply; check the body and `at`"]),
     // The rocker's pin on the crank instead of the coupler.
     ("four-bar", "between = [\"coupler\", \"rocker\"]", "between = [\"crank\", \"rocker\"]",
-        &["body `crank` (line 21): is locked: the joints together leave it no freedom at the initial pose, nor can `rocker` move; a joint on the wrong body, or of a wrong type or axis?",
-          "joint `B` (line 60): lies 4.41 m from the centre of mass of `crank`, 10.06 times as far as a body of that mass and inertia reaches: is it the right body, and `at` the right place?"]),
+        &["body `crank` (line 21): is locked: the joints leave it no degree of freedom at the \
+           initial pose, and `rocker` cannot move either; check their bodies, types and axes",
+          "joint `B` (line 60): lies 4.41 m from the centre of mass of `crank`, 10.06 times the \
+           extent that its mass and inertia imply; check the body and `at`"]),
     // An axis across those of the others: the linkage cannot move.
     ("four-bar", "at = [4.193375245281536, 2.401922307076307, 0.0]\naxis = [0, 0, 1]", "at = [4.193375245281536, 2.401922307076307, 0.0]\naxis = [1, 0, 0]",
-        &["body `crank` (line 21): is locked: the joints together leave it no freedom at the initial pose, nor can `coupler`, `rocker` move; a joint on the wrong body, or of a wrong type or axis?"]),
+        &["body `crank` (line 21): is locked: the joints leave it no degree of freedom at the \
+           initial pose, and `coupler`, `rocker` cannot move either; check their bodies, types and \
+           axes"]),
     // A stiffness in N/mm that was multiplied by 1000 twice.
     ("four-bar", "at = [0.5, 0.8660254037844386, 0.0]\naxis = [0, 0, 1]\nstiffness = 9e6", "at = [0.5, 0.8660254037844386, 0.0]\naxis = [0, 0, 1]\nstiffness = 9e9",
-        &["joint `A` (line 51): alone vibrates at 5.71e4 Hz, 39.32 times as fast as the median of the joints: it decides the step; are its stiffness in N/m, its bodies' masses in kg?"]),
+        &["joint `A` (line 51): vibrates at 5.71e4 Hz, 39.32 times the median of the joints, and \
+           alone limits the step size; check that its stiffness is in N/m and its bodies' masses \
+           in kg"]),
 ];
 
 fn warnings(text: &str) -> Vec<String> {

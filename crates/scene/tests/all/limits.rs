@@ -237,18 +237,18 @@ fn bad_limits_are_refused_with_place_reason_and_remedy() {
         (
             "limits = { to = 1, stiffness = 1, speed = 1 }",
             "",
-            ["has no `restitution`", "dissipation"],
+            ["requires `restitution`", "dissipation"],
         ),
         ("limits = { to = 1, stiffness = 1, restitution = 0.5 }", "", ["has no `speed`", "m/s"]),
         (
             "limits = { to = 1, stiffness = 1, restitution = 1.5, speed = 1 }",
             "",
-            ["is no ratio of speeds", "(0, 1]"],
+            ["is not a valid coefficient of restitution", "(0, 1]"],
         ),
         (
             "limits = { to = 1, stiffness = 1, restitution = 0.5, speed = 1, dissipation = 1 }",
             "",
-            ["stands beside `restitution`", "either says"],
+            ["contradicts `restitution`", "give only one"],
         ),
         ("limits = { to = 1, stiffness = 1, ratio = 1 }", "", ["has no key `ratio`", "`from`"]),
         ("limits = 3", "", ["is an integer", "{ from = …"]),
@@ -265,7 +265,7 @@ fn bad_limits_are_refused_with_place_reason_and_remedy() {
             "",
             "friction = { coulomb = 1 }\n[[tsda]]\nname = \"pivot.friction\"\nbetween = [\"world\", \"lever\"]\n\
              points = [[1, 0, 0], [0, 0, 0]]\nfree_length = 1\nstiffness = 1",
-            ["pivot.friction", "differ from each other"],
+            ["pivot.friction", "must be unique"],
         ),
     ] {
         let text = scene(slide, turn).unwrap_err();

@@ -71,7 +71,7 @@ fn the_longest_name_is_taken_and_one_byte_more_is_refused() {
     let refused = |text: &str, line: usize, bytes: usize| {
         let error = Scene::parse(text, "scene.toml").unwrap_err();
         assert_eq!((error.line(), error.column()), (Some(line), Some(8)), "{error}");
-        assert!(error.message().contains(&format!("is a name of {bytes} bytes")), "{error}");
+        assert!(error.message().contains(&format!("is {bytes} bytes long")), "{error}");
         assert!(error.help().contains(&format!("at most {LONGEST} bytes")), "{}", error.help());
     };
     for name in NAMES {

@@ -98,12 +98,12 @@ fn what_is_wrong_with_a_change_is_shown_in_it() {
         ("body.cart.mas=1", 1, "no key `mas`", "did you mean `mass`?"),
         ("body.cart.mass.x=1", 16, "no body `x`", "plain value"),
         ("body.cart.inertia[3]=1", 18, "no entry 3", "entries 0 to 2"),
-        ("body.cart[0]=1", 10, "no entry 0", "there is inertia, mass"),
+        ("body.cart[0]=1", 10, "no entry 0", "known: inertia, mass"),
         ("body.z*.mass=1", 6, "no body `z*`", "cart"),
         ("gravity=[0, 1", 14, "unclosed array", ""),
-        ("duration=", 10, "no value", "PATH"),
-        ("duration=1\nname=2", 10, "no value", "one line"),
-        ("duration", 9, "no value", "PATH=VALUE"),
+        ("duration=", 10, "is not a valid value", "PATH"),
+        ("duration=1\nname=2", 10, "is not a valid value", "one line"),
+        ("duration", 9, "missing `=VALUE`", "PATH=VALUE"),
         ("joint.rail.between=[\"world\", \"crat\"]", 0, "crat", "cart"),
     ] {
         let error = with(&["gravity[0]=0", change]).unwrap_err();

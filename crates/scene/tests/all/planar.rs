@@ -297,7 +297,8 @@ fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_muc
                 "",
             ),
             "{ axis = [1, 0, 0], angle = \"10 deg\" }",
-            "`orientation` of body `arm` leaves the plane z = 0: no principal axis is normal to it, the nearest leans by \
+            "`orientation` of body `arm` leaves the plane z = 0: no principal axis is normal to \
+             it, the nearest is tilted by \
              10 degrees",
         ),
         (
@@ -328,15 +329,16 @@ fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_muc
              line_direction = [0, 0, 1]\npoint = [0.5, 0, 0]\nstiffness = 9\nfree_length = 0\n\
              clearance = 0.2\n",
             "[[point_on_line]]",
-            "point_on_line 1 leaves the plane z = 0: it has a clearance about a point of the plane, which no \
-             element of the plane has",
+            "point_on_line 1 leaves the plane z = 0: it has a clearance about a point of the \
+             plane, which planar elements do not support",
         ),
         (
             pinned(PLACE, AT, "")
                 + "[[torsion_spring]]\nbetween = [\"world\", \"arm\"]\naxis = [0, 1, 1]\n\
              stiffness = 9\n",
             "[0, 1, 1]",
-            "`axis` of torsion_spring 1 leaves the plane z = 0: its axis leans by 45 degrees from the normal",
+            "`axis` of torsion_spring 1 leaves the plane z = 0: its axis is tilted by 45 degrees \
+             from the normal",
         ),
         (
             pinned(PLACE, AT, "") + "[[load]]\nbody = \"arm\"\nforce = [1, 0, -2]\n",
@@ -352,7 +354,7 @@ fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_muc
             pinned(PLACE, AT, "")
                 + "[[input]]\nname = \"push\"\ntype = \"force\"\nbody = \"arm\"\naxis = [0, 3, 3]\n",
             "[0, 3, 3]",
-            "`axis` of input `push` leaves the plane z = 0: its axis leans by 45 degrees",
+            "`axis` of input `push` leaves the plane z = 0: its axis is tilted by 45 degrees",
         ),
         (
             pinned(PLACE, AT, "")
@@ -368,7 +370,7 @@ fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_muc
         let line = text[..place].matches('\n').count() + 1;
         let column = place - text[..place].rfind('\n').unwrap();
         assert_eq!((error.line(), error.column()), (Some(line), Some(column)), "{words}");
-        assert!(error.help().contains("leave out `planar`"), "{}", error.help());
+        assert!(error.help().contains("omit `planar`"), "{}", error.help());
     }
 }
 
@@ -376,7 +378,8 @@ fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_muc
 #[test]
 fn a_pin_turns_in_its_plane() {
     let lean = pinned(PLACE, "at = [0, 0, 0]\naxis = [0, 1, 1]", "gravity = [0, -9.81, 0]");
-    let words = "`axis` of joint `pin` leaves the plane z = 0: its axis leans by 45 degrees from the normal";
+    let words = "`axis` of joint `pin` leaves the plane z = 0: its axis is tilted by 45 degrees \
+        from the normal";
     assert_eq!(refusal(&lean).message(), words);
     let across = pinned(PLACE, "at = [0, 0, 0]\naxis = [0, 1, 0]", "");
     let scene = Scene::parse(&across, "pinned.toml").unwrap();

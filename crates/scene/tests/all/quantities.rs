@@ -115,14 +115,20 @@ fn what_is_wrong_is_marked_within_the_text() {
         ("mass", "\"L\"", 0, "`mass` of body `b` is \"L\", a value in m", "> 0 in kg"),
         ("mass", "\"-2 kg\"", 0, "is \"-2 kg\", which is -2.0", "> 0 in kg"),
         ("mass", "\"2 * (3 kgg)\"", 8, "`mass` of body `b`: `kgg` is neither", "`kg`?"),
-        ("mass", "\"2 + 3 kg\"", 1, "a plain number stands beside a value in kg", "\"5 kg\""),
-        ("mass", "'2 * k'", 5, "`k` is neither a unit nor", "[parameters] has L"),
+        (
+            "mass",
+            "\"2 + 3 kg\"",
+            1,
+            "mismatched units: a plain number and a value in kg",
+            "\"5 kg\"",
+        ),
+        ("mass", "'2 * k'", 5, "`k` is neither a unit nor", "known parameters: L"),
         ("mass", "\"\"\"\n 2 xg\"\"\"", 0, "`xg` is neither", "`kg`"),
         // Written otherwise than it reads: the whole is marked.
         ("mass", "\"2 \\u006bk\"", 0, "`kk` is neither", "kg"),
-        ("mass", "\"\"", 0, "it is empty", "kg"),
-        ("arm", "\"1/2 cm\"", 1, "`1/2 cm` can be read in two ways", "1/2 * cm"),
-        ("arm", "\"3 / 0\"", 5, "divided by 0", "another divisor"),
+        ("mass", "\"\"", 0, "empty value", "kg"),
+        ("arm", "\"1/2 cm\"", 1, "`1/2 cm` is ambiguous", "1/2 * cm"),
+        ("arm", "\"3 / 0\"", 5, "division by 0", "another divisor"),
         ("arm", "\"1e300 * 1e300\"", 1, "too large", "1.8e308"),
         ("position", "[0, \"2 * Lx\", 0]", 9, "`position`[1] of body `b`: `Lx`", "`L`?"),
         ("stiffness ", "\"50 N*m\"", 0, "a value in N·m", "divide by `rad`"),
@@ -138,8 +144,8 @@ fn what_is_wrong_is_marked_within_the_text() {
             "orientation",
             "{ axis = [0, 1, \"1 m\"], angle = 0 }",
             16,
-            "is a value in m, others a plain number",
-            "of one dimension",
+            "is a value in m, but others are a plain number",
+            "have one dimension",
         ),
         (
             "orientation",
@@ -171,23 +177,23 @@ fn what_is_wrong_is_marked_within_the_text() {
 fn parameters_are_refused_where_they_stand() {
     for (parameters, place, message, help) in [
         ("a = 1\nm = 2", (3, 1), "`m` of [parameters] has the name of a unit", "`m_1`"),
-        ("pi = 3", (2, 1), "is the number π", "another name"),
-        ("\"a b\" = 3", (2, 1), "is no name", "letters, digits"),
-        ("a-b = 3", (2, 1), "is no name", "letters, digits"),
-        ("2a = 3", (2, 1), "is no name", "letters, digits"),
+        ("pi = 3", (2, 1), "is reserved for the number π", "another name"),
+        ("\"a b\" = 3", (2, 1), "is not a valid parameter name", "letters, digits"),
+        ("a-b = 3", (2, 1), "is not a valid parameter name", "letters, digits"),
+        ("2a = 3", (2, 1), "is not a valid parameter name", "letters, digits"),
         ("a = true", (2, 5), "`a` of [parameters] is a boolean", "2 * L + 5 mm"),
         ("a = [1, 2]", (2, 5), "is an array", "a finite number"),
         ("a.b = 1", (2, 1), "is a table", "a finite number"),
         ("a = nan", (2, 5), "is nan", "a finite number"),
         ("a = 1e999", (2, 5), "is 1e999", "a finite number"),
-        ("a = \"b / c\"\nb = 1\nc = 0", (2, 10), "divided by 0", "another divisor"),
+        ("a = \"b / c\"\nb = 1\nc = 0", (2, 10), "division by 0", "another divisor"),
         ("a = \"2 * bb\"\nb = 1", (2, 10), "`bb` is neither", "did you mean `b`?"),
-        ("a = \"a\"", (2, 5), "is in a circle: `a` needs `a`", "a number, or follows"),
+        ("a = \"a\"", (2, 5), "is part of a cycle: `a` needs `a`", "does not depend on the others"),
         (
             "a = 1\nb = \"a + c\"\nc = \"2 * d\"\nd = \"c - a\"\ne = \"b\"",
             (4, 5),
-            "`c` of [parameters] is in a circle: `c` needs `d` needs `c`",
-            "from others",
+            "`c` of [parameters] is part of a cycle: `c` needs `d` needs `c`",
+            "depend on the others",
         ),
         ("a = 1\na = 2", (3, 1), "duplicate key", "once"),
     ] {
@@ -239,10 +245,7 @@ fn what_no_value_names_is_warned_of() {
     let parameters = "parameters.a = 1\nparameters.b = \"a\"\nparameters.c = \"2 kg\"\n";
     let said = named(parameters, &[("mass", "\"c\"")]);
     assert_eq!(said.len(), 1);
-    assert!(
-        said[0].starts_with("parameter `b` (line 3): no value of the scene names it"),
-        "{said:?}"
-    );
+    assert!(said[0].starts_with("parameter `b` (line 3): is unused: no value"), "{said:?}");
     assert_eq!(named(parameters, &[("mass", "\"c * b\"")]), [""; 0]);
 }
 
@@ -276,16 +279,11 @@ fn parameters_and_values_are_changed_by_path() {
         ("parameters.L", Some("\"300 mm\""), "0.4")
     );
     for (change, column, message, help) in [
-        (
-            "parameters.L=3 kg",
-            14,
-            "`L` of [parameters] is a value in kg",
-            "in m, which a plain number",
-        ),
+        ("parameters.L=3 kg", 14, "`L` of [parameters] is a value in kg", "in m, as in the file"),
         ("parameters.L=3 kgs", 17, "`kgs` is neither", "`kg`"),
-        ("parameters.l_b=3", 1, "no parameter `l_b`", "did you mean `m_b`? [parameters] has"),
+        ("parameters.l_b=3", 1, "no parameter `l_b`", "did you mean `m_b`? known parameters:"),
         ("body.b.mass=2 * L", 13, "is \"2 * L\", a value in m", "> 0 in kg"),
-        ("body.b.mass=m_b + 2", 20, "a plain number stands beside", "\"5 kg\""),
+        ("body.b.mass=m_b + 2", 20, "mismatched units: a plain number", "\"5 kg\""),
     ] {
         let error = with(&[change]).unwrap_err();
         assert_eq!((error.file(), error.line()), ("--set", Some(1)), "{change}: {error}");

@@ -1,4 +1,4 @@
-//! Logarithmic axes: where a value lies, which ticks to draw and what to write at them.
+//! Logarithmic axes: positions of values, ticks and their labels.
 //!
 //! `(values, pixels) => axis; value => pixel`.
 
@@ -11,7 +11,7 @@ pub struct Axis {
     high: f64,
     from: f64,
     to: f64,
-    /// [pixels] a label takes.
+    /// [pixels] width of a label.
     spacing: f64,
 }
 
@@ -30,8 +30,7 @@ pub struct Tick {
 const SHORTEST: f64 = 1.0;
 
 impl Axis {
-    /// Holds all values, which are positive and finite, and leaves pixels free before the least and
-    /// after the largest; `None` without values.
+    /// An axis for all values, which are positive and finite, with free pixels at both ends; `None` without values.
     pub fn new(
         values: impl Iterator<Item = f64>,
         (from, to): (f64, f64),
@@ -80,7 +79,7 @@ impl Axis {
         }
     }
 
-    /// Its grid, ascending; every decade is labelled where labels have so many pixels each.
+    /// Its grid, ascending; every decade is labelled if labels have the given pixels each.
     pub fn ticks(&self) -> Vec<Tick> {
         let (first, last) = (self.low.floor() as i32, self.high.floor() as i32);
         let decade = (self.to - self.from).abs() / (self.high - self.low);
@@ -105,7 +104,7 @@ impl Axis {
 }
 
 impl Tick {
-    /// What it stands for.
+    /// Its value.
     pub fn value(self) -> f64 {
         f64::from(self.digit) * 10_f64.powi(self.decade)
     }

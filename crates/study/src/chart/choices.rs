@@ -1,4 +1,4 @@
-//! What to choose for each power of ten: to the right of its line, and by number at its mark.
+//! The choice for each power of ten: to the right of its line, and by number at its mark.
 
 use std::fmt::Write as _;
 
@@ -18,7 +18,7 @@ pub(super) struct Choice {
     pub(super) accuracy: f64,
     /// The point's row.
     pub(super) row: usize,
-    /// What it is called on the chart: points from 1, the coarsest accuracy first.
+    /// Its number on the chart: from 1, the coarsest accuracy first.
     pub(super) number: usize,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Choice {
 const DISC: f64 = 9.0;
 
 impl Drawing<'_> {
-    /// One for each power of ten on the axis that the truth is good for and the kernel reaches.
+    /// One for each power of ten on the axis above the uncertainty of the reference solution that the kernel reaches.
     pub(super) fn choices(&self) -> Vec<Choice> {
         let mut choices: Vec<Choice> = Vec::new();
         let mut rows: Vec<usize> = Vec::new();
@@ -52,7 +52,7 @@ impl Drawing<'_> {
         }
         let Layout { right, strip, width: whole, .. } = *self.layout;
         let x = right + 18.0;
-        label(text, (x - 10.0, strip.0 + 12.0), "start", INK, "the cheapest for each accuracy:");
+        label(text, (x - 10.0, strip.0 + 12.0), "start", INK, "cheapest method for each accuracy:");
         label(text, (x - 10.0, strip.0 + 29.0), "start", FAINT, "scheme, precision, step");
         for choice in choices {
             let y = self.y.at(choice.accuracy);
@@ -85,7 +85,7 @@ impl Drawing<'_> {
         }
     }
 
-    /// Each choice's number near its mark, and the way down to it from the line of its accuracy.
+    /// Each choice's number near its mark, and the line down to it from its accuracy.
     pub(super) fn numbers(&self, text: &mut String, spots: &mut LabelSpots, choices: &[Choice]) {
         for (rank, choice) in choices.iter().enumerate() {
             let (x, y) = self.at(choice.row);

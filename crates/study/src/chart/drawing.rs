@@ -1,7 +1,6 @@
-//! The drawing: its measures, its lines and marks.
+//! The drawing: dimensions, lines and marks.
 //!
-//! `(points, machine) => SVG`. What lies around, beneath and beside the lines is in the modules after
-//! this one.
+//! `(points, machine) => SVG`. Elements around, below and beside the lines are in the modules after this one.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -20,25 +19,25 @@ use crate::point::{Machine, Point, Stepper, front, is_paper};
 use crate::variants::Compared;
 use crate::words::{Cost, times};
 
-/// What a chart is made from.
+/// Data of a chart.
 pub struct Chart<'c> {
     /// The scene's name.
     pub scene: &'c str,
-    /// What it is.
+    /// Description of the scene.
     pub description: &'c str,
     /// \[s\] the time compared.
     pub window: f64,
-    /// \[m\] what the truth is known to.
+    /// \[m\] uncertainty of the reference solution.
     pub uncertainty: f64,
-    /// What was measured.
+    /// Measured points.
     pub points: &'c [Point],
     /// How its points are run.
     pub command: Command,
-    /// Instructions per second of the target's processor: what is real time there.
+    /// Instructions per second of the target's processor: real time.
     pub real_time_instructions: f64,
     /// Processor, build and whatever else the measurements depend on: lines of text.
     pub conditions: &'c [String],
-    /// The scene and what it can be made into.
+    /// The scene and its variants.
     pub variants: &'c [Compared],
 }
 
@@ -105,14 +104,14 @@ pub fn steppers(points: &[Point]) -> BTreeMap<&Stepper, usize> {
     rows
 }
 
-/// What hovering over a point shows.
+/// Tooltip of a point.
 #[must_use]
 pub fn hover(point: &Point, machine: Machine, real_time: f64) -> String {
     let mut text = format!("{}\nstep {}", point.stepper.label(), display(point.step));
     text += &match point.drawn(machine) {
         Some((_, error)) if point.lost => format!("\nlost: error {error:.2e} m"),
         Some((_, error)) if !point.advisable => {
-            format!("\nerror {error:.2e} m, but too near the limit to be advised")
+            format!("\nerror {error:.2e} m, too close to the stability limit to be advised")
         }
         Some((_, error)) => format!("\nerror {error:.2e} m"),
         None => "\nunstable".into(),
@@ -122,7 +121,7 @@ pub fn hover(point: &Point, machine: Machine, real_time: f64) -> String {
         text += &format!("\n{}\n{speed} × real time", Cost(cost, machine));
     }
     if let Some(energy) = point.energy_rms.filter(|energy| energy.is_finite()) {
-        text += &format!("\nenergy off by {energy:.2e} J rms");
+        text += &format!("\nenergy error {energy:.2e} J rms");
     }
     text
 }
@@ -147,7 +146,7 @@ pub(super) struct Line<'d> {
     pub(super) style: Style,
     /// The paper's scheme.
     pub(super) paper: bool,
-    /// A variant that buys nothing: drawn lightly, so that what does stays in sight.
+    /// A variant without a point on the front: drawn faintly.
     pub(super) quiet: bool,
     pub(super) stable: Vec<usize>,
     pub(super) hollow: Vec<usize>,
@@ -171,7 +170,7 @@ impl<'d> Drawing<'d> {
         let Layout { left, right, top, bottom, room, .. } = *layout;
         let x = Axis::new(costs, (left, right), room, 62.0)?;
         let errors = found().map(|(_, error)| error);
-        // The floor is in sight where it is near enough to matter.
+        // The floor is shown if it is near the measured errors.
         let least = found().map(|(_, error)| error).fold(f64::INFINITY, f64::min);
         let floor = Some(chart.uncertainty).filter(|floor| *floor > least / 100.0);
         let y = Axis::new(errors.chain(floor), (bottom, top), (24.0, 16.0), 16.0)?;
@@ -304,7 +303,7 @@ impl<'d> Drawing<'d> {
         for row in &line.hollow {
             text.push_str(&line.style.mark(self.at(*row), 0.75 * MARK, true, &title(*row)));
         }
-        // A row of its own in the strip for each stepper.
+        // One row in the strip per stepper.
         let (top, bottom) = (self.layout.strip.0 + 6.0, self.layout.strip.1 - 6.0);
         let share = (number as f64 + 0.5) / self.lines.len() as f64;
         for row in &line.unstable {

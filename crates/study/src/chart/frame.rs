@@ -1,4 +1,4 @@
-//! What lies around and beneath the lines: axes, the truth's floor, real time, the strip, the key.
+//! Elements around and below the lines: axes, uncertainty of the reference, real time, the strip, the key.
 
 use std::fmt::Write as _;
 
@@ -12,7 +12,7 @@ use crate::chart::style::{FAINT, GRID, INK};
 use crate::point::{Machine, Stepper};
 
 impl Drawing<'_> {
-    /// What lies below the truth's own uncertainty.
+    /// Area below the uncertainty of the reference solution.
     pub(super) fn floor(&self, text: &mut String) {
         let Layout { left, right, bottom, .. } = *self.layout;
         if !self.y.holds(self.chart.uncertainty) {
@@ -81,24 +81,24 @@ impl Drawing<'_> {
         label(text, ((left + right) / 2.0, bottom + 44.0), "middle", INK, axis);
         if wide {
             label(text, (left, bottom + 44.0), "start", FAINT, "← cheaper");
-            label(text, (right, bottom + 44.0), "end", FAINT, "dearer →");
+            label(text, (right, bottom + 44.0), "end", FAINT, "more expensive →");
         }
         let times = format!(
             "times faster than real time{}",
-            if self.machine == Machine::Target { " on one of 168 MHz" } else { "" }
+            if self.machine == Machine::Target { " at 168 MHz" } else { "" }
         );
         label(text, ((left + right) / 2.0, strip.0 - 31.0), "middle", INK, &times);
         let _ = writeln!(
             text,
             "<text transform=\"translate({} {:.1}) rotate(-90)\" text-anchor=\"middle\">error: \
-             distance from the truth, root mean square{}</text>",
+             distance from the reference solution, root mean square{}</text>",
             if wide { 24.0 } else { 13.0 },
             (top + bottom) / 2.0,
             if wide { " over bodies and time" } else { "" },
         );
     }
 
-    /// The cost that is just real time, and what is too slow for it.
+    /// The cost of real time, and the area slower than it.
     pub(super) fn real_time(&self, text: &mut String) {
         let Layout { right, top, bottom, .. } = *self.layout;
         if !self.x.holds(self.real_time) {
@@ -127,7 +127,7 @@ impl Drawing<'_> {
         label(text, (left - 8.0, (top + bottom) / 2.0 + 5.0), "end", INK, "unstable");
     }
 
-    /// What is written at the floor and at real time.
+    /// Labels at the floor and at real time.
     pub(super) fn remarks(&self, text: &mut String, spots: &mut LabelSpots) {
         let Layout { left, right, top, bottom, .. } = *self.layout;
         let mut remark = |anchor: (f64, f64), to_left: bool, said: &str| {
@@ -139,7 +139,11 @@ impl Drawing<'_> {
         if self.y.holds(self.chart.uncertainty) {
             let y = (self.y.at(self.chart.uncertainty) + 15.0).min(bottom - 5.0);
             let floor = significant(self.chart.uncertainty, 2);
-            remark((left + 8.0, y), false, &format!("the truth is known to {floor} m"));
+            remark(
+                (left + 8.0, y),
+                false,
+                &format!("the reference solution is accurate to {floor} m"),
+            );
         }
         if self.x.holds(self.real_time) {
             let x = self.x.at(self.real_time);
@@ -157,8 +161,8 @@ impl Drawing<'_> {
         let Layout { left, bottom, .. } = *self.layout;
         let window = significant(self.chart.window, 3);
         let above = format!(
-            "Down is more accurate, left is faster; {window} s compared. Yellow band: the front, \
-             where nothing measured is both faster and more accurate."
+            "Down is more accurate, left is faster; {window} s compared. Yellow band: the Pareto \
+             front; no measured point is both faster and more accurate."
         );
         label(text, (left, 58.0), "start", FAINT, &above);
         let paper = match self.machine {
@@ -166,12 +170,11 @@ impl Drawing<'_> {
             Machine::Target => "Thick: the paper's scheme, dbd in f64 and (dashed) in f32.",
         };
         let beneath = [
-            "Each mark is a step; hollow at the top: unstable, elsewhere: lost, or too near the limit. \
+            "Each mark is a step; hollow at the top: unstable, elsewhere: lost or too close to the limit. \
              Lines: solid f64, dashed f32, long dashes fixed, dotted other orientations."
                 .to_owned(),
             format!(
-                "{paper} Grey: references in plain Rust. Faint: variants without a point on the \
-                 front."
+                "{paper} Grey: references in plain Rust. Faint: variants without a point on the Pareto front."
             ),
         ];
         for (row, words) in beneath.into_iter().enumerate() {
@@ -180,12 +183,12 @@ impl Drawing<'_> {
         }
     }
 
-    /// Mark and name of every scheme; where the last line of them stands.
+    /// Mark and name of every scheme; returns the position of the last line.
     pub(super) fn legend(&self, text: &mut String) -> f64 {
         let Layout { width: whole, left, bottom, legend, .. } = *self.layout;
         let mut known: Vec<(String, &Line<'_>)> = Vec::new();
         let mut lines: Vec<&Line<'_>> = self.lines.iter().collect();
-        // A scheme's plainest stepper stands for it: in f64, with quaternions.
+        // A scheme is represented by its plainest stepper: f64, quaternions.
         lines.sort_by_key(|line| (!line.stepper.kernel, line.stepper.precision != "f64"));
         for line in lines {
             let Stepper { scheme, newton, damping, .. } = line.stepper;

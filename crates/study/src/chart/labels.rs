@@ -43,7 +43,7 @@ impl Drawing<'_> {
                 false => line.stepper.label(),
             };
             let worst = if line.quiet { 45.0 } else { 300.0 };
-            // The paper's name stands along its line where there is no room at the end.
+            // The paper's name is placed along its line if there is no room at the end.
             let most = if line.paper { line.stable.len() } else { 1 };
             for row in line.stable.iter().rev().take(most) {
                 let how = (worst, line.paper);

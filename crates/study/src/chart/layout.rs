@@ -10,13 +10,13 @@ pub(super) struct Layout {
     pub(super) right: f64,
     pub(super) top: f64,
     pub(super) bottom: f64,
-    /// Top and bottom of the strip of what is unstable.
+    /// Top and bottom of the strip for unstable points.
     pub(super) strip: (f64, f64),
     /// Free along the costs before the cheapest and after the dearest.
     pub(super) room: (f64, f64),
     /// Of the first line of the legend beneath the axes.
     pub(super) legend: f64,
-    /// Whether names and words have room: else they stand in the page around.
+    /// Whether names and text have room: else they are in the surrounding page.
     pub(super) wide: bool,
 }
 

@@ -1,7 +1,7 @@
-//! What a stepper looks like: colour and mark by scheme, dashes by precision and orientation.
+//! Appearance of a stepper: colour and mark by scheme, dashes by precision and orientation.
 //!
-//! Colours of Okabe & Ito (2008), distinct for people who see few; marks and dashes say the same
-//! again. References are grey.
+//! Colours of Okabe & Ito (2008), distinct for colour-blind readers; marks and dashes repeat the information.
+//! References are grey.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use crate::point::Stepper;
 
 /// Text and axes.
 pub const INK: &str = "#333a45";
-/// What is written less loudly.
+/// Secondary text.
 pub const FAINT: &str = "#69727f";
 /// Grid lines.
 pub const GRID: &str = "#d9dee4";
@@ -38,7 +38,7 @@ pub enum Shape {
     Circle,
     /// Corners on a circle, the first at an angle [deg] clockwise from the top.
     Polygon(u8, u8),
-    /// A star of so many points.
+    /// A star with the given number of points.
     Star(u8),
 }
 

@@ -1,5 +1,4 @@
-//! Charts of ladders like those measured, from orders, floors and limits. `DBD_DRAW=folder` leaves
-//! them and a page there to look at.
+//! Charts of synthetic ladders from orders, floors and limits. `DBD_DRAW=folder` writes them and a page there.
 
 use dbd_report::output::dark::unpaired;
 use dbd_report::output::markup::escape;
@@ -130,7 +129,7 @@ fn every_point_is_drawn_once_with_its_numbers() {
     }
 }
 
-/// A scene with many ways has a legend of many lines: the drawing is as high as they need.
+/// A scene with many methods has a legend of many lines: the drawing grows with it.
 #[test]
 fn a_long_legend_has_room() {
     let mut points = ladders();
@@ -161,7 +160,7 @@ fn choices_are_named(points: &[Point], drawing: &str, machine: Machine) {
         assert!(drawing.contains(&format!(">{name}<")), "1e{exponent}: {name}");
         assert!(drawing.contains(&format!(">1e{exponent}<")), "1e{exponent} has no label");
     }
-    // Each number stands at its mark and once or more in the panel.
+    // Each number is at its mark and at least once in the panel.
     for number in 1..=4 {
         assert!(drawing.matches(&format!(">{number}</text>")).count() >= 2, "{number}");
     }

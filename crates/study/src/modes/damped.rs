@@ -1,14 +1,14 @@
 //! Damping ratios of modes.
 //!
-//! `(frequencies, ΦᵀCΦ) => ratios`. The quadratic eigenproblem `λ² + λ·D + Ω² = 0`, D = Φᵀ·M⁻½·C·M⁻½·Φ, as the first-order
-//! system `(Ω·q, q̇)`, whose matrix `[[0, Ω], [−Ω, −D]]` has the eigenvalues of all damped modes; each undamped mode
-//! takes those nearest to what the diagonal of D alone would give it.
+//! `(frequencies, ΦᵀCΦ) => ratios`. The quadratic eigenproblem `λ² + λ·D + Ω² = 0`, D = Φᵀ·M⁻½·C·M⁻½·Φ, as the
+//! first-order system `(Ω·q, q̇)`, whose matrix `[[0, Ω], [−Ω, −D]]` has the eigenvalues of all damped modes; each
+//! undamped mode gets those nearest to its estimate from the diagonal of D.
 
 use std::f64::consts::TAU;
 
 use nalgebra::{Complex, DMatrix, Schur};
 
-/// A part of D below this share of its largest entry is rounding.
+/// Parts of D below this fraction of its largest entry are rounding.
 const ROUNDING: f64 = 1e-11;
 
 /// Iterations per eigenvalue at most.
@@ -36,7 +36,7 @@ pub(super) fn by_eigenvalues(
     let largest = damping.amax();
     let diagonal: Vec<f64> = damping.diagonal().iter().copied().collect();
     let mut ratios = by_diagonal(frequencies, &diagonal);
-    // What nothing damps keeps its frequency, and couples to nothing.
+    // Undamped modes keep their frequency and are uncoupled.
     let coupled: Vec<usize> = (0..frequencies.len())
         .filter(|row| damping.row(*row).amax() > ROUNDING * largest)
         .collect();
@@ -55,7 +55,7 @@ pub(super) fn by_eigenvalues(
     }
     let schur = Schur::try_new(system, f64::EPSILON, ITERATIONS * 2 * count)?;
     let mut left: Vec<Complex<f64>> = schur.complex_eigenvalues().iter().copied().collect();
-    // Weakly damped modes first: their own values lie nearest.
+    // Weakly damped modes first: their eigenvalues are nearest.
     let mut order = coupled.clone();
     order.sort_by(|a, b| {
         let ratio = |row: usize| ratios[row].unwrap_or(f64::INFINITY);

@@ -1,4 +1,4 @@
-//! Why there are no modes, and what their differences are made with.
+//! Errors of modes, and the step of their differences.
 
 use dbd_kernel::status::Cause;
 use miette::Diagnostic;
@@ -7,8 +7,8 @@ use thiserror::Error;
 /// Bodies at most: time grows with the cube of their number, to some seconds at this one.
 pub const MOST_BODIES: usize = 200;
 
-/// \[m, rad\] of the differences, which are of fourth order: what they leave out is of the order of
-/// 1e-20 m⁴ over a spring's length to the fourth power, rounding of 1e-16 m over this.
+/// \[m, rad\] step of the fourth-order differences: their truncation error is of the order of 1e-20 m⁴ over a spring's
+/// length to the fourth power, rounding of 1e-16 m over this.
 pub(super) const PROBE: f64 = 1e-5;
 
 /// Weights of the differences at 1 and 2 probes.
@@ -19,34 +19,36 @@ pub(super) const WEIGHTS: [f64; 2] = [8.0 / 12.0, -1.0 / 12.0];
 pub enum ModesError {
     /// Too many bodies.
     #[error(
-        "the modes of {bodies} bodies would take too long; those of {MOST_BODIES} are the most"
+        "computing all modes of {bodies} bodies would take too long; the maximum is {MOST_BODIES}"
     )]
-    #[diagnostic(help("`host-sim modes` finds the lowest and the highest modes of larger scenes"))]
+    #[diagnostic(help(
+        "use `host-sim modes`, which finds the lowest and highest modes of larger scenes"
+    ))]
     TooMany {
         /// How many there are.
         bodies: usize,
     },
-    /// The forces near the pose are undefined, as a torsion spring's are without a twist.
-    #[error("there are no modes about this pose: a twist is undefined ({0:?})")]
-    #[diagnostic(help("another pose: one in which every torsion spring has a twist"))]
+    /// The forces near the pose are undefined, for example with an undefined torsion angle.
+    #[error("the modes about this pose are undefined: a torsion angle is undefined ({0:?})")]
+    #[diagnostic(help("use a pose in which every torsion spring has a defined angle"))]
     Pose(Cause),
-    /// A law has a freedom of its own.
-    #[error("a rotor of the law `{law}` moves beside the bodies, whose modes these would be")]
-    #[diagnostic(help("a drive without a rotor, its inertia added to a body"))]
+    /// A law has an internal degree of freedom.
+    #[error(
+        "the rotor of the law `{law}` is a degree of freedom outside the bodies, which modes do not include"
+    )]
+    #[diagnostic(help("use a drive without a rotor and add its inertia to a body"))]
     Rotor {
         /// The law.
         law: &'static str,
     },
     /// A stiffness beyond the range of numbers.
-    #[error(
-        "there are no modes about this pose: its stiffness over its masses is beyond all numbers"
-    )]
-    #[diagnostic(help("smaller stiffnesses or larger masses and inertias"))]
+    #[error("the modes about this pose cannot be computed: stiffness over mass overflows")]
+    #[diagnostic(help("use smaller stiffnesses or larger masses and inertias"))]
     Range,
     /// The iteration does not converge.
     #[error("the iteration for the modes of many bodies does not converge")]
     #[diagnostic(help(
-        "fewer modes, or the modes of a part of the mechanism as a scene of its own"
+        "ask for fewer modes, or put a part of the mechanism into a separate scene"
     ))]
     Slow,
 }

@@ -34,7 +34,7 @@ const GROWTH: f64 = 10.0;
 /// The `lowest` lowest and `highest` highest modes about the pose of `state`, ascending.
 ///
 /// # Errors
-/// Where a twist is undefined, numbers overflow, or the iteration does not converge.
+/// If a torsion angle is undefined, numbers overflow, or the iteration does not converge.
 pub fn extremes(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,
@@ -73,7 +73,7 @@ pub fn extremes(
     Ok(Modes { frequencies, shapes, asymmetry, resolution })
 }
 
-/// The matrix of entries, made symmetric, and how far it was not, over its largest entry.
+/// The symmetric part of the matrix of entries, and its asymmetry relative to its largest entry.
 fn symmetric(size: usize, entries: &[Entry]) -> (CscMatrix<f64>, f64) {
     let mut coo = CooMatrix::new(size, size);
     entries.iter().for_each(|(row, column, value)| coo.push(*row, *column, *value));

@@ -1,7 +1,7 @@
 //! Stiffness and damping of a pose by differences of the kernel's wrenches.
 //!
-//! `(model, state) => entries of M⁻½·K·M⁻½, M⁻½·C·M⁻½`. Bodies that share no element and no neighbour are moved at
-//! once, so the number of evaluations does not grow with the number of bodies.
+//! `(model, state) => entries of M⁻½·K·M⁻½, M⁻½·C·M⁻½`. Bodies without a common element or neighbour are moved
+//! together, so the number of evaluations does not grow with the number of bodies.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use super::error::{ModesError, PROBE, WEIGHTS};
 /// An entry of a matrix: row, column, value.
 pub(super) type Entry = (usize, usize, f64);
 
-/// A body's state moved along freedom `c`: a shift along a world axis or a turn about its own.
+/// A body's state moved along degree of freedom `c`: a translation along a world axis or a rotation about a body axis.
 fn move_body(state: &mut State<SceneModel<F64>>, freedom: usize, by: f64) {
     let body = &mut state.bodies[freedom / 6];
     let axis = Vec3::axes()[freedom % 3];
@@ -29,7 +29,7 @@ fn move_body(state: &mut State<SceneModel<F64>>, freedom: usize, by: f64) {
     }
 }
 
-/// A body's velocity along freedom `c`.
+/// A body's velocity along degree of freedom `c`.
 fn set_rate(state: &mut State<SceneModel<F64>>, freedom: usize, by: f64) {
     let body = &mut state.bodies[freedom / 6];
     let rate = Vec3::axes()[freedom % 3] * by;
@@ -40,7 +40,7 @@ fn set_rate(state: &mut State<SceneModel<F64>>, freedom: usize, by: f64) {
     }
 }
 
-/// 1/√m and 1/√I of every freedom.
+/// 1/√m and 1/√I of every degree of freedom.
 pub(super) fn roots(model: &SceneModel<F64>) -> Vec<f64> {
     let inertias = model
         .bodies
@@ -96,8 +96,8 @@ fn coloured(model: &SceneModel<F64>) -> (Vec<Vec<usize>>, Vec<usize>) {
     (near, colours)
 }
 
-/// How the mass-scaled wrenches answer, with the sign of a stiffness, to `probe(state, freedom, by)`; every pair of
-/// coupled bodies has its 36 entries.
+/// Response of the mass-scaled wrenches, with the sign of a stiffness, to `probe(state, freedom, by)`; 36 entries per
+/// pair of coupled bodies.
 fn scaled(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,
@@ -145,7 +145,7 @@ fn scaled(
 /// `M⁻½·K·M⁻½` \[1/s²\].
 ///
 /// # Errors
-/// Where a law has a rotor, a twist is undefined, or an entry beyond the range of numbers.
+/// If a law has a rotor, a torsion angle is undefined, or an entry overflows.
 pub(super) fn stiffness(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,

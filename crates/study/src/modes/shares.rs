@@ -1,7 +1,7 @@
-//! Which element holds a mode: shares of its strain energy by name.
+//! Strain energy fractions of a mode by element.
 //!
-//! `(scene, state, shape) => φᵀ·K_e·φ / φᵀ·K·φ per element`, K_e by differences of the wrenches of the element alone, so that
-//! preloads count. The parts of gravity, loads and inputs are what is missing to 1.
+//! `(scene, state, shape) => φᵀ·K_e·φ / φᵀ·K·φ per element`, K_e by differences of the wrenches of the element alone,
+//! so that preloads count. The parts of gravity, loads and inputs make up the rest to 1.
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::forces::wrenches;
@@ -18,7 +18,7 @@ use super::matrices::{at_rest, roots, six};
 /// A joint, a raw element, a torsion spring or an interaction of a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Element {
-    /// What messages call it: ``joint `wrist` ``.
+    /// Its name in messages: ``joint `wrist` ``.
     pub name: String,
     part: Part,
 }
@@ -47,7 +47,7 @@ pub fn elements(scene: &Scene) -> Vec<Element> {
     joints.chain(others.map(|(name, part)| Element { name: name.clone(), part })).collect()
 }
 
-/// The model with an element so many times as stiff; `None` of an interaction, whose stiffness is its law's.
+/// The model with an element's stiffness multiplied by a factor; `None` for an interaction, whose law defines it.
 #[must_use]
 pub fn softened(
     model: &SceneModel<F64>,
@@ -86,7 +86,7 @@ fn bare(model: &SceneModel<F64>) -> SceneModel<F64> {
         (spring.stiffness, spring.preload) = (0.0, 0.0);
     }
     for input in &mut bare.inputs {
-        // Moved ground stays where it is; what pushes does not.
+        // Moved ground stays in place; applied forces are removed.
         if !matches!(input.kind, InputKind::Anchor { .. }) {
             input.kind = InputKind::Anchor { direction: Vec3::ZERO };
         }
@@ -142,11 +142,10 @@ fn law_powers(
     powers
 }
 
-/// The shares of the strain energy of a shape, scaled by √m and √I, that elements have, in their order; 0 where the
-/// whole is 0.
+/// Fractions of the strain energy of a shape, scaled by √m and √I, per element; 0 if the total is 0.
 ///
 /// # Errors
-/// Where a twist is undefined.
+/// If a torsion angle is undefined.
 pub fn strain_shares(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,

@@ -1,6 +1,6 @@
-//! The table of a scene's modes: frequencies, damping ratios, effective masses, and what makes each.
+//! The table of a scene's modes: frequencies, damping ratios, effective masses, and elements of each.
 //!
-//! `(scene, how many) => rows, what the fastest mode hangs on`.
+//! `(scene, count) => rows, origin of the fastest mode`.
 
 use dbd_kernel::{F64, State};
 use dbd_scene::{Scene, SceneModel};
@@ -36,37 +36,37 @@ pub enum RatioSource {
 pub struct ModeRow {
     /// Its number, from 1, among all modes in ascending order.
     pub number: usize,
-    /// \[Hz\] undamped; negative where the mode runs away, 0 where nothing holds it.
+    /// \[Hz\] undamped; negative for an unstable mode, 0 for a free one.
     pub frequency: f64,
     /// Damping ratio; `None` of modes without a frequency.
     pub ratio: Option<f64>,
     /// \[kg\] effective masses in translation along x, y and z.
     pub effective_mass: [f64; 3],
-    /// The same as shares of the total mass.
+    /// The same as fractions of the total mass.
     pub mass_share: [f64; 3],
     /// The body that has most of the kinetic energy.
     pub body: String,
-    /// Its share of the kinetic energy.
+    /// Its fraction of the kinetic energy.
     pub body_share: f64,
-    /// Shares of the strain energy, the largest three, with the elements' names.
+    /// The three largest fractions of the strain energy, with the elements' names.
     pub elements: Vec<(String, f64)>,
 }
 
-/// What the fastest mode hangs on.
+/// Origin of the fastest mode.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Fastest {
     /// \[Hz\] the highest frequency.
     pub frequency: f64,
     /// The element with most of its strain energy.
     pub element: String,
-    /// Its share.
+    /// Its fraction of the strain energy.
     pub share: f64,
     /// \[Hz\] of this mode with half the element's stiffness by first-order perturbation, `ω·√(1 − share/2)`.
     pub halved_predicted: f64,
     /// \[Hz\] of the mode that overlaps most with this one, solved with half the stiffness; `None` of an interaction,
     /// whose stiffness is its law's.
     pub halved_solved: Option<f64>,
-    /// How far the two shapes overlap: 1 where they are one.
+    /// Overlap of the two shapes: 1 if they are equal.
     pub overlap: Option<f64>,
     /// \[Hz\] the highest frequency then, which may be of another mode.
     pub highest_then: Option<f64>,
@@ -75,7 +75,7 @@ pub struct Fastest {
 /// The modes of a scene.
 #[derive(Clone, Debug)]
 pub struct Table {
-    /// The lowest modes that were asked for.
+    /// The requested lowest modes.
     pub rows: Vec<ModeRow>,
     /// The fastest mode; `None` where nothing vibrates.
     pub fastest: Option<Fastest>,
@@ -89,10 +89,10 @@ pub struct Table {
     pub is_complete: bool,
 }
 
-/// The `count` lowest modes of a scene about its pose at t = 0, at rest, and what its fastest mode hangs on.
+/// The `count` lowest modes of a scene about its pose at t = 0, at rest, and the origin of its fastest mode.
 ///
 /// # Errors
-/// Where a twist is undefined, numbers overflow, or an iteration does not converge.
+/// If a torsion angle is undefined, numbers overflow, or an iteration does not converge.
 pub fn table(scene: &Scene, count: usize) -> Result<Table, ModesError> {
     let model = &scene.model;
     let state = State::initial(model);
@@ -171,7 +171,7 @@ fn ratios(
     Ok((damped::by_diagonal(&found.frequencies, &diagonal), source))
 }
 
-/// The largest shares with their names.
+/// The largest fractions with their names.
 fn named(elements: &[Element], shares: &[f64]) -> Vec<(String, f64)> {
     let mut pairs: Vec<(&Element, f64)> = elements.iter().zip(shares.iter().copied()).collect();
     pairs.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
@@ -218,17 +218,17 @@ fn fastest(
     Ok(Some(fastest))
 }
 
-/// The mass \[kg, kg·m²\], stiffness and damping matrices in six freedoms per body: shifts along the world's axes, turns
-/// about the body's. Entries of row, column and value, from 0, ascending by column and row.
+/// The mass \[kg, kg·m²\], stiffness and damping matrices in six degrees of freedom per body: translations along the
+/// world's axes, rotations about the body's. Entries of row, column and value, from 0, ascending by column and row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrices {
     /// 6 per body.
     pub size: usize,
     /// The diagonal of masses and principal inertias.
     pub mass: Vec<(usize, usize, f64)>,
-    /// Symmetric part of the stiffness, whole.
+    /// Symmetric part of the stiffness, both triangles.
     pub stiffness: Vec<(usize, usize, f64)>,
-    /// Symmetric part of the damping, whole.
+    /// Symmetric part of the damping, both triangles.
     pub damping: Vec<(usize, usize, f64)>,
 }
 
@@ -236,7 +236,7 @@ impl Matrices {
     /// Of a scene about its pose at t = 0, at rest.
     ///
     /// # Errors
-    /// Where a twist is undefined, or numbers overflow.
+    /// If a torsion angle is undefined, or numbers overflow.
     pub fn of(scene: &Scene) -> Result<Self, ModesError> {
         let (model, state) = (&scene.model, State::initial(&scene.model));
         let roots = matrices::roots(model);

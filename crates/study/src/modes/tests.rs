@@ -12,7 +12,7 @@ fn modes_of(scene: &Scene) -> Modes {
     modes(&scene.model, &State::initial(&scene.model)).unwrap()
 }
 
-/// Two free masses and a spring between them, far from the origin; dampers are left out.
+/// Two free masses and a spring between them, far from the origin; dampers are ignored.
 fn two_masses(place: f64) -> Scene {
     scene(&format!(
         "gravity = [0, 0, 0]
@@ -76,7 +76,7 @@ fn pendulum(y: f64) -> Scene {
 #[test]
 fn a_pendulum_swings_about_two_axes_as_its_inertia_says() {
     let modes = modes_of(&pendulum(-0.4));
-    // It may turn about its own length, too.
+    // It may also rotate about its longitudinal axis.
     assert_eq!((modes.free(), modes.unstable()), (1, 0));
     for (mode, inertia) in [(1, 0.06), (2, 0.05)] {
         let expected = (2.0 * 9.81 * 0.4 / (inertia + 2.0 * 0.16_f64)).sqrt() / TAU;
@@ -135,7 +135,7 @@ fn too_many_bodies_are_refused_and_numbers_beyond_all_numbers() {
 
 #[test]
 fn a_pose_that_gives_way_says_how_far() {
-    // The pivot does not carry the rod yet: it gives way by 20 µm, and there is no swing.
+    // The pivot does not carry the rod yet: it deflects by 20 µm, and there is no swing.
     let mut scene = pendulum(-0.4);
     scene.model.initial[0].position.y = -0.4;
     let modes = modes_of(&scene);

@@ -1,4 +1,4 @@
-//! Sections 4.5 and 4.6: energy drift of four-, five- and six-bar, and what topology does.
+//! Sections 4.5 and 4.6: energy drift of four-, five- and six-bar, and the effect of topology.
 
 use dbd_plant::{Frequencies, Method, SchemeName, plant};
 use dbd_scene::Scene;
@@ -16,10 +16,10 @@ const WINDOW: f64 = 0.5;
 /// \[s\] at which mechanisms are compared with each other.
 const COMMON: f64 = 4e-6;
 
-/// Matrix solvers, in place of ADAMS.
+/// Matrix solvers, as a replacement for ADAMS.
 const SOLVERS: [&str; 2] = ["generalized-alpha", "linearly implicit reference"];
 
-/// Steps as shares of the limit without iterations.
+/// Steps as fractions of the limit without iterations.
 const SHARES: [f64; 5] = [0.6, 0.3, 0.1, 0.03, 0.01];
 
 /// Section 4.5: simulation time per real time of the four-bar's last point, and its drift \[J/s\].
@@ -34,7 +34,7 @@ type Point = [f64; 3];
 /// The drift of a method over its steps.
 fn sweep(scene: &Scene, method: &Method) -> Result<Vec<Point>, PaperError> {
     let highest = Frequencies::of(scene).estimate;
-    // The paper's scheme bears 2/ω; one that bears any step is tried from there, too.
+    // The limit of the paper's scheme is 2/ω; unconditionally stable schemes start there, too.
     let limit = 2.0 / highest;
     let cost = costs(scene, &[Way::Kernel(*method)], 0.1 * limit, &mut |_, _| ())[0].least;
     let mut points = Vec::new();
@@ -51,7 +51,7 @@ fn curve(name: String, points: &[Point]) -> Curve {
     Curve { name, paper: false, line: true, points: points.iter().map(|p| [p[1], p[2]]).collect() }
 }
 
-/// What of a point stands at which place.
+/// Indices of a point's values.
 const COST: usize = 1;
 const DRIFT: usize = 2;
 
@@ -67,13 +67,13 @@ fn between(points: &[Point], known: usize, value: f64, wanted: usize) -> Option<
     })
 }
 
-/// The largest of another way's part over that of dbd, where both have the same value of the known one.
+/// The largest ratio of another method's value to that of dbd at the same abscissa.
 fn advantage(dbd: &[Point], other: &[Point], known: usize, wanted: usize) -> Option<f64> {
     let ratio = |own: &Point| Some(between(other, known, own[known], wanted)? / own[wanted]);
     dbd.iter().filter_map(ratio).max_by(f64::total_cmp)
 }
 
-/// The linearly implicit reference over its steps: from 64 times the limit, as it bears any.
+/// The linearly implicit reference over its steps: from 64 times the limit, as it is unconditionally stable.
 fn implicit(scene: &Scene) -> Vec<Point> {
     let limit = 2.0 / Frequencies::of(scene).estimate;
     let cost = costs(scene, &[Way::LinearlyImplicitEuler], 0.1 * limit, &mut |_, _| ())[0].least;
@@ -179,7 +179,7 @@ fn last_point(scene: &Scene) -> Result<Row, PaperError> {
     )))
 }
 
-/// What the abstract says of the drift at equal cost and of the cost at equal drift.
+/// The abstract's claims on the drift at equal cost and the cost at equal drift.
 fn abstract_claims(own: &[Point], rivals: &[(&'static str, Vec<Point>)]) -> Vec<Row> {
     let solvers = || rivals.iter().filter(|(name, _)| SOLVERS.contains(name));
     let best = |known, wanted| {

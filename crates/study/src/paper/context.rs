@@ -1,4 +1,4 @@
-//! What every item is measured with: scenes, methods, and what can go wrong.
+//! Context of every item: scenes, methods, errors.
 
 use dbd_plant::{AnyPlant, Method, MethodError, PlantError, PrecisionName, SchemeName};
 use dbd_scene::{Scene, SceneError};
@@ -14,7 +14,7 @@ pub type Scenes<'s> = dyn Fn(&str) -> Option<Scene> + Sync + 's;
 #[derive(Debug, Error, Diagnostic)]
 pub enum PaperError {
     /// A scene is not among those that ship.
-    #[error("the scene {0} does not ship with this program: build it from a whole source tree")]
+    #[error("the scene {0} is not part of this program: build it from a complete source tree")]
     Scene(String),
     /// A scene lacks a body that is measured.
     #[error("the scene {scene} has no body {body}")]
@@ -40,17 +40,17 @@ pub enum PaperError {
     #[diagnostic(transparent)]
     Plant(#[from] PlantError),
     /// Nothing vibrates.
-    #[error("nothing vibrates about this pose")]
+    #[error("the model has no vibration about this pose")]
     Still,
     /// A run fails where the paper's does not.
     #[error("the run fails after {time} s: the method cannot be measured on this scene")]
     Failed {
-        /// \[s\] how far it came.
+        /// \[s\] time of the failure.
         time: f64,
     },
 }
 
-/// What an item is measured with.
+/// Context of an item.
 pub struct Context<'c> {
     pub(super) scenes: &'c Scenes<'c>,
 }
@@ -76,7 +76,7 @@ pub const TEN: [&str; 10] = [
     "three-systems",
 ];
 
-/// The paper's scheme with so many Newton iterations, in double precision.
+/// The paper's scheme with the given number of Newton iterations, in double precision.
 pub(super) fn dbd(newton: u32) -> Result<Method, PaperError> {
     Ok(Method::new(SchemeName::Dbd, Some(newton), PrecisionName::F64)?)
 }
@@ -86,7 +86,7 @@ pub(super) fn scheme(scheme: SchemeName) -> Result<Method, PaperError> {
     Ok(Method::new(scheme, None, PrecisionName::F64)?)
 }
 
-/// So many steps on.
+/// Advances by the given number of steps.
 pub(super) fn advance(plant: &mut dyn AnyPlant, steps: u64) -> Result<(), PaperError> {
     if plant.advance(steps).is_running() {
         Ok(())

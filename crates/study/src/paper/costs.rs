@@ -1,4 +1,4 @@
-//! Sections 3.2 and 4.1: what a step costs, over the size of a system.
+//! Sections 3.2 and 4.1: cost of a step over the size of a system.
 
 use crate::paper::context::{Context, PaperError, TEN, dbd, scheme};
 use crate::paper::counts::ELEMENTS;

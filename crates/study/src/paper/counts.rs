@@ -35,7 +35,7 @@ pub(super) const ELEMENTS: [[f64; 3]; 10] = [
 /// Section 4.1: c, a and b of τ = c + a·bodies + b·TSDAs \[ms\], and the fit's RMSE.
 const FIT: [f64; 4] = [0.2175, 0.0298, -0.0020, 0.0077];
 
-/// Last digits of what is printed.
+/// Last digits of the printed values.
 const PRINTED: Tolerance = Tolerance { within: 0.02, factor: 1.5 };
 
 /// Table 7a.

@@ -33,7 +33,7 @@ const RATE: f64 = 0.8e-3;
 const PLATEAU: [f64; 2] = [5e-3, 7e-3];
 const STEP: f64 = 33.8e-6;
 
-/// What a run shows.
+/// Data of a run.
 struct Run {
     /// Time \[s\] and energy \[J\].
     energies: Vec<[f64; 2]>,
@@ -45,7 +45,7 @@ struct Run {
     offsets: Vec<f64>,
     /// \[rad\] of the slider about its axis.
     rotations: Vec<f64>,
-    /// \[rad\] of the crank, folded to half a turn.
+    /// \[rad\] of the crank, folded to half a revolution.
     angles: Vec<f64>,
 }
 
@@ -76,7 +76,7 @@ fn run(scene: &Scene, plant: &mut dyn AnyPlant) -> Result<Run, PaperError> {
         let state = plant.state();
         let body = &state.bodies[slider];
         let energy = plant.energy();
-        // The load's potential is of a torque that turns on: only what the bodies and springs hold counts.
+        // The load's potential is that of a rotating torque: only the energy of bodies and springs counts.
         run.energies.push([plant.time(), energy.total() - energy.load]);
         run.speeds.push(state.bodies[crank].angular_velocity.z.abs());
         run.velocities.push(body.velocity.x);

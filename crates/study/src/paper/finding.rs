@@ -1,18 +1,18 @@
-//! What an item came to: rows with verdicts, assumptions, curves.
+//! Result of an item: rows with verdicts, assumptions, curves.
 //!
 //! `(paper's value, this one's, tolerance) => verdict`.
 
 use serde::{Deserialize, Serialize};
 
-/// Whether a result of the paper holds here; the later, the worse.
+/// Whether a result of the paper is reproduced; later variants are worse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// It does.
     Reproduced,
-    /// It does but for a factor, which is stated.
+    /// Reproduced up to a stated factor.
     ReproducedUpToFactor,
-    /// The text leaves open what would be needed to tell.
+    /// The text lacks required data.
     NotReproducible,
     /// It does not, and the numbers show it.
     Contradicted,
@@ -31,7 +31,7 @@ impl Verdict {
     }
 }
 
-/// How near a value must be.
+/// Tolerance of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Relative deviation up to which it is reproduced.
@@ -46,25 +46,25 @@ pub const EXACT: Tolerance = Tolerance { within: 0.0, factor: 1.0 };
 /// A value that a pose or a reading of the text moves by some tens of per cent.
 pub const LOOSE: Tolerance = Tolerance { within: 0.15, factor: 3.0 };
 
-/// A result of the paper beside this one's.
+/// A result of the paper and of this project.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// What is compared.
+    /// The compared quantity.
     pub quantity: String,
     /// Its unit; empty where it has none.
     pub unit: String,
-    /// What the paper has; `None` where it has words only.
+    /// The paper's value; `None` for a qualitative statement.
     pub paper: Option<f64>,
-    /// What is measured here.
+    /// The measured value.
     pub ours: Option<f64>,
-    /// Whether the paper's holds; `None` of a row that the paper lacks.
+    /// The verdict; `None` for a row that the paper lacks.
     pub verdict: Option<Verdict>,
-    /// The reason, the evidence or what is meant.
+    /// Reason, evidence or explanation.
     pub note: String,
 }
 
 impl Row {
-    /// Two numbers, judged.
+    /// Two numbers with a verdict.
     #[must_use]
     pub fn compared(
         quantity: impl Into<String>,
@@ -91,7 +91,7 @@ impl Row {
         }
     }
 
-    /// A statement that holds or not.
+    /// A true or false statement.
     #[must_use]
     pub fn claim(quantity: impl Into<String>, holds: bool, note: impl Into<String>) -> Self {
         Self {
@@ -104,7 +104,7 @@ impl Row {
         }
     }
 
-    /// What the text does not determine, and why.
+    /// A quantity that the text does not determine, and the reason.
     #[must_use]
     pub fn open(
         quantity: impl Into<String>,
@@ -152,7 +152,7 @@ impl Row {
 /// Points of a plot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
-    /// What they are.
+    /// Their name.
     pub name: String,
     /// Whether they are the paper's.
     pub paper: bool,
@@ -165,9 +165,9 @@ pub struct Curve {
 /// Curves in common axes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plot {
-    /// Beside the item's name in a file's name; empty for its first.
+    /// Suffix of the item's name in a file's name; empty for its first.
     pub name: String,
-    /// What it shows.
+    /// Title.
     pub title: String,
     /// Words at both axes, with units.
     pub axes: [String; 2],
@@ -191,20 +191,20 @@ pub struct Map {
     pub values: Vec<Vec<f64>>,
 }
 
-/// What an item came to.
+/// Result of an item.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// Its name.
     pub item: String,
     /// Where the paper has it.
     pub place: String,
-    /// What it is about.
+    /// Title.
     pub title: String,
-    /// What the text leaves open, and what is taken here.
+    /// Assumptions for open points of the text.
     pub assumptions: Vec<String>,
-    /// What is compared.
+    /// The compared quantity.
     pub rows: Vec<Row>,
-    /// What is drawn.
+    /// Plots.
     pub plots: Vec<Plot>,
 }
 

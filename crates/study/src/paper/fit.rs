@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// The coefficients of `y = Σ cᵢ·xᵢ` and the root mean square of what is left, over the points less the
-/// coefficients; `None` where the points do not determine them.
+/// The coefficients of `y = Σ cᵢ·xᵢ` and the root mean square of the residual, over the points minus the coefficients;
+/// `None` if the points do not determine them.
 #[must_use]
 pub fn least_squares(rows: &[Vec<f64>], y: &[f64]) -> Option<(Vec<f64>, f64)> {
     let columns = rows.first()?.len();

@@ -1,16 +1,16 @@
 //! The results of Franco & Degani (Appl. Sci. 2026, 16, 2297), measured again.
 //!
-//! `(items, scenes) => findings: the paper's value, this one's, a verdict`. Every number is measured by
-//! the call; the paper's own and the tolerances of the verdicts alone are constants.
+//! `(items, scenes) => findings: the paper's value, the measured one, a verdict`. Every number is measured by the call;
+//! only the paper's values and the tolerances are constants.
 //!
 //! - `context`: scenes, methods, errors.
 //! - [`finding`]: rows, verdicts, curves.
 //! - [`fit`]: straight lines and planes through points.
-//! - [`drift`]: how the energy of a run drifts.
+//! - [`drift`]: energy drift of a run.
 //! - `counts`, `costs`, `spectrum`, `steps`, `offsets`, `chains`, `crank`, `bars`, `trade_off`: the items.
 //! - [`plot`]: curves as an SVG in the paper's axes.
-//! - [`page`]: what people read.
-//! - [`store`]: findings, kept for the next call.
+//! - [`page`]: pages for people.
+//! - [`store`]: cached findings.
 
 mod bars;
 mod chains;
@@ -36,13 +36,13 @@ pub use spectrum::{Kick, kick};
 /// An item of the paper.
 #[derive(Clone, Copy)]
 pub struct Item {
-    /// What a command line calls it.
+    /// Its name on the command line.
     pub name: &'static str,
     /// Where the paper has it.
     pub place: &'static str,
-    /// What it is about.
+    /// Title.
     pub title: &'static str,
-    /// Whether it is measured where no item is named: it takes seconds, and nothing of it is a time.
+    /// Whether it is measured by default: it takes seconds and contains no times.
     pub quick: bool,
     /// The scenes that it needs.
     pub scenes: &'static [&'static str],

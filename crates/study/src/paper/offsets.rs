@@ -39,7 +39,7 @@ const SAMPLES: u32 = 50;
 /// A pose that is not published and a duration that is not either.
 const TOLERANCE: Tolerance = Tolerance { within: 0.15, factor: 3.0 };
 
-/// Places of the tool \[m\] after every interval, between steps by a straight line.
+/// Positions of the tool \[m\] after every interval, interpolated linearly between steps.
 fn path(scene: &Scene, step: f64) -> Result<Vec<[f64; 3]>, PaperError> {
     let tool = place(scene, "tool")?;
     let mut plant = plant(scene, &dbd(0)?, step)?;

@@ -1,4 +1,4 @@
-//! What people read of the findings: a table in Markdown, a table in CSV, one page in HTML.
+//! Findings for people: a table in Markdown, a table in CSV, one page in HTML.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use dbd_report::output::markup::{PAGE_STYLE, escape};
 use crate::paper::finding::{Finding, Row};
 use crate::paper::plot;
 
-/// A number to three digits, a dash where there is none.
+/// A number to three digits, a dash if there is none.
 fn number(value: Option<f64>) -> String {
     value.map_or("–".into(), |value| significant(value, 3))
 }

@@ -1,7 +1,6 @@
 //! A plot as an SVG, in the paper's axes.
 //!
-//! `plot => SVG`. What is the paper's is drawn in one colour, hollow or dashed; what is measured here in
-//! others.
+//! `plot => SVG`. The paper's data are drawn in one colour, hollow or dashed; measured data in others.
 
 use std::fmt::Write as _;
 

@@ -112,7 +112,7 @@ pub(super) fn of(scene: &Scene, joint: usize, sampling: Sampling) -> Result<Spec
     Ok(Spectrum { signals, points })
 }
 
-/// What the paper's procedure finds of a scene.
+/// Result of the paper's procedure for a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Kick {
     /// The joint whose springs were lengthened.
@@ -127,7 +127,7 @@ pub struct Kick {
     pub damping: f64,
     /// \[Hz\] the nearest eigenfrequency of the frozen pose.
     pub nearest: f64,
-    /// The dominant over the nearest eigenfrequency.
+    /// Ratio of the dominant to the nearest eigenfrequency.
     pub ratio: f64,
     /// Magnitude spectrum and wavelet scalogram: title and SVG.
     #[serde(skip)]
@@ -135,7 +135,7 @@ pub struct Kick {
 }
 
 impl Kick {
-    /// What people read.
+    /// Text for people.
     #[must_use]
     pub fn sentence(&self) -> String {
         format!(
@@ -152,10 +152,11 @@ impl Kick {
     }
 }
 
-/// Section 2.4 on any scene: lengthens every other spring of a joint about the frozen pose at t = 0, runs, and takes the dominant frequency of all joints' extensions.
+/// Section 2.4 on any scene: lengthens every other spring of a joint about the frozen pose at t = 0, runs, and takes
+/// the dominant frequency of all joints' extensions.
 ///
 /// # Errors
-/// Where there are no modes, nothing vibrates, or the run fails.
+/// If there are no modes, nothing vibrates, or the run fails.
 pub fn kick(scene: &Scene, joint: usize) -> Result<Kick, PaperError> {
     let model = frozen(&scene.model, &State::initial(&scene.model));
     let state = State::initial(&model);

@@ -16,7 +16,7 @@ const MECHANISMS: [&str; 6] = ["four-bar", "five-bar-a", "five-bar-b", "six-bar"
 /// \[N/m\] of the joints' springs.
 const STIFFNESSES: [f64; 5] = [2e5, 2e6, 2e7, 2e8, 1e9];
 
-/// Of the mass of the first body over what it is.
+/// Factors of the first body's mass.
 const MASSES: [f64; 3] = [1.0, 6.0, 40.0];
 
 /// The paper's average errors, 1.53 % and 5.44 %, and as much for the search.

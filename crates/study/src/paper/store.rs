@@ -1,7 +1,7 @@
-//! Findings, kept for the next call: a file per item, valid for the build and the scenes it is of.
+//! Cached findings: a file per item, valid for its build and scenes.
 //!
-//! `(folder, item, scenes) => finding`. A file appears whole or not at all: what is interrupted goes on
-//! with the item that it was at.
+//! `(folder, item, scenes) => finding`. A file is written completely or not at all: an interrupted call continues with
+//! its last item.
 
 use std::fs;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
@@ -37,7 +37,7 @@ fn name(item: &Item) -> String {
     format!("{}.json", item.name)
 }
 
-/// What is kept of an item under a key; `None` where nothing is, or it is of another build or damaged.
+/// The cached finding of an item under a key; `None` if missing, damaged or of another build.
 #[must_use]
 pub fn kept(folder: &Path, item: &Item, key: &str) -> Option<Finding> {
     let text = fs::read_to_string(folder.join(name(item))).ok()?;

@@ -65,7 +65,7 @@ pub(super) fn equal_cost(context: &Context<'_>) -> Result<Finding, PaperError> {
     let fits = times.map(|times| least_squares(&plane, &times));
     if let [Some((own, _)), Some((matrix, _))] = &fits {
         let at = |fit: &[f64], [bodies, constraints]: [f64; 2]| {
-            // Six springs hold five degrees of freedom.
+            // Six springs constrain five degrees of freedom.
             let springs = bodies * constraints * 6.0 / 5.0;
             fit[0] + fit[1] * bodies + fit[2] * springs
         };

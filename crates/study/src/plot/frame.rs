@@ -1,4 +1,4 @@
-//! What is around curves: a grid, its numbers, what the sides are called.
+//! Frame of curves: grid, numbers, axis titles.
 //!
 //! `(scales, pixels) => SVG`.
 
@@ -43,7 +43,7 @@ pub fn grid(
     );
 }
 
-/// What the sides are called.
+/// Axis titles.
 pub fn sides(
     text: &mut String,
     (x, y): (&Scale, &Scale),

@@ -1,7 +1,7 @@
 //! One coloured cell per pair of values.
 //!
-//! `(names along, names up, values) => SVG`. Cells lie evenly whatever the values of the axes; one without a value,
-//! of a case that did not come to its end, is hatched.
+//! `(names along, names up, values) => SVG`. Cells are evenly spaced; a cell without a value, of a case that did not
+//! complete, is hatched.
 
 use std::fmt::Write as _;
 
@@ -13,9 +13,9 @@ use dbd_report::output::svg::label;
 use crate::plot::frame::{begin, sides};
 use crate::plot::{FAILED, FRAME, INK, Scale};
 
-/// What is drawn.
+/// Data of the drawing.
 pub struct Heat<'h> {
-    /// What is shown: a quantity and its unit.
+    /// Quantity and unit.
     pub title: &'h str,
     /// \[pixels\] width and height.
     pub size: (f64, f64),
@@ -25,11 +25,11 @@ pub struct Heat<'h> {
     pub y: &'h Scale,
     /// How many cells lie along and up.
     pub cells: [usize; 2],
-    /// The value of the cell along and up, row after row from the bottom; `None` where there is none.
+    /// Values of the cells, row by row from the bottom; `None` if missing.
     pub values: &'h [Option<f64>],
 }
 
-/// Viridis (van der Walt & Smith 2015) at even places: even steps to the eye, in grey, too.
+/// Viridis (van der Walt & Smith 2015) at even positions: perceptually uniform, also in grey.
 const COLOURS: [[f64; 3]; 9] = [
     [68.0, 1.0, 84.0],
     [71.0, 44.0, 122.0],
@@ -45,7 +45,7 @@ const COLOURS: [[f64; 3]; 9] = [
 /// \[pixels\] left, top, right and bottom of the cells within a drawing.
 const MARGINS: [f64; 4] = [92.0, 10.0, 86.0, 50.0];
 
-/// Cells up to which each says its value where one points at it.
+/// Maximum number of cells with a tooltip.
 const SPEAKING: usize = 4_000;
 
 /// The SVG.
@@ -119,7 +119,7 @@ pub fn svg(heat: &Heat<'_>) -> String {
     adapted(&text)
 }
 
-/// The colours beside their values.
+/// Colour scale.
 fn legend(text: &mut String, [left, top, bottom]: [f64; 3], [low, high]: [f64; 2]) {
     const STRIPES: usize = 40;
     let tall = (bottom - top) / STRIPES as f64;
@@ -140,7 +140,7 @@ fn legend(text: &mut String, [left, top, bottom]: [f64; 3], [low, high]: [f64; 2
     }
 }
 
-/// The colour at a share of the way.
+/// The colour at a fraction of the scale.
 fn colour(share: f64) -> String {
     let at = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
     let below = (at.floor() as usize).min(COLOURS.len() - 2);

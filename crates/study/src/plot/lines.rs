@@ -1,7 +1,7 @@
 //! Curves and points over a scale.
 //!
-//! `(scales, series) => SVG`. A curve goes from a case to the next; one that did not come to its end is a gap and
-//! a mark at the bottom.
+//! `(scales, series) => SVG`. A curve connects the cases; a case that did not complete is a gap and a mark at the
+//! bottom.
 
 use std::fmt::Write as _;
 
@@ -12,16 +12,16 @@ use dbd_report::output::svg::joined;
 use crate::plot::frame::{begin, grid, sides};
 use crate::plot::{COLOURS, FAILED, Scale};
 
-/// What belongs together: a value of another axis, or a figure.
+/// One series: a value of another axis, or a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// What it is called.
+    /// Name.
     pub name: String,
-    /// Along and up; up is `None` where the case did not come to its end.
+    /// Abscissa and ordinate; the latter is `None` if the case did not complete.
     pub points: Vec<(f64, Option<f64>)>,
 }
 
-/// What is drawn.
+/// Data of the drawing.
 pub struct Drawing<'d> {
     /// \[pixels\] width and height.
     pub size: (f64, f64),
@@ -41,7 +41,7 @@ const MARGINS: [f64; 4] = [74.0, 10.0, 18.0, 50.0];
 /// Points up to which each of a curve is marked.
 const MARKED: usize = 60;
 
-/// Points of a drawing up to which each says its values where one points at it.
+/// Maximum number of points with a tooltip.
 const SPEAKING: usize = 2_000;
 
 /// The SVG.
@@ -107,7 +107,7 @@ pub fn svg(drawing: &Drawing<'_>) -> String {
     adapted(&text)
 }
 
-/// What pointing at a case shows.
+/// Tooltip of a case.
 fn said(x: &Scale, along: f64, series: &str, words: &str) -> String {
     let series = if series.is_empty() { String::new() } else { format!("{series}\n") };
     format!("<title>{}</title>", escape(&format!("{series}{}\n{words}", x.said(along))))

@@ -1,7 +1,7 @@
 //! Drawings of a figure over one axis or two, as SVG.
 //!
-//! - `scale`: where a value lies, and round numbers along the way.
-//! - [`frame`]: what is around curves: grid, numbers, names.
+//! - `scale`: positions of values, and round ticks.
+//! - [`frame`]: grid, numbers and axis titles.
 //! - [`lines`]: curves and points over a scale.
 //! - [`heat`]: one coloured cell per pair of values.
 
@@ -16,7 +16,7 @@ pub use scale::Scale;
 pub const INK: &str = "#333a45";
 const FRAME: &str = "#8f949b";
 const GRID: &str = "#e3e7ec";
-/// In place of a unit: whichever belongs to the quantity.
+/// In place of a unit: that of the quantity.
 pub const SI: &str = "SI";
 /// Cases that did not come to their end.
 const FAILED: &str = "#c0392b";

@@ -1,6 +1,6 @@
-//! Where a value lies along a side of a drawing, and round numbers along the way.
+//! Positions of values along a side of a drawing, and round ticks.
 //!
-//! `(values, logarithmic) => share of the way, ticks`. What has no numbers lies evenly, each value a tick.
+//! `(values, logarithmic) => relative position, ticks`. Values without numbers are evenly spaced, each with a tick.
 
 use dbd_plant::digits::significant;
 
@@ -15,15 +15,14 @@ pub struct Scale {
     low: f64,
     high: f64,
     logarithmic: bool,
-    /// Named places in place of round numbers.
+    /// Names instead of round numbers.
     names: Vec<String>,
-    /// What stands beside it.
+    /// Its label.
     pub label: String,
 }
 
 impl Scale {
-    /// A scale that holds these numbers; `None` where there are none. `room` leaves some beyond the
-    /// outermost.
+    /// A scale for these numbers; `None` if there are none. `room` adds a margin.
     #[must_use]
     pub fn of_numbers(
         values: impl Iterator<Item = f64>,
@@ -36,7 +35,7 @@ impl Scale {
         let values: Vec<f64> = values.filter(drawn).map(taken).collect();
         let low = values.iter().copied().reduce(f64::min)?;
         let high = values.iter().copied().reduce(f64::max)?;
-        // What does not vary is flat, not a picture of its rounding.
+        // Constant values are flat, without their rounding.
         let least = (1e-6 * low.abs().max(high.abs())).max(f64::MIN_POSITIVE);
         let (mut low, mut high) = (low, high);
         if high - low < least {
@@ -50,14 +49,14 @@ impl Scale {
         (high - low).is_finite().then(|| Self { low, high, logarithmic, names: Vec::new(), label })
     }
 
-    /// A scale of names, each as far from the next.
+    /// A scale of evenly spaced names.
     #[must_use]
     pub fn of_names(names: Vec<String>, label: String) -> Self {
         let high = names.len() as f64 - 0.5;
         Self { low: -0.5, high, logarithmic: false, names, label }
     }
 
-    /// The share of the way at which a value lies; `None` beyond the ends, or where it has no place.
+    /// The relative position of a value; `None` outside the scale.
     #[must_use]
     pub fn at(&self, value: f64) -> Option<f64> {
         let value = if self.logarithmic { value.log10() } else { value };
@@ -65,14 +64,14 @@ impl Scale {
         (-1e-9..=1.0 + 1e-9).contains(&share).then_some(share)
     }
 
-    /// The share of the way at which a value lies; of one beyond an end that end's.
+    /// The relative position of a value, clamped to the ends.
     #[must_use]
     pub fn clamped(&self, value: f64) -> f64 {
         let value = if self.logarithmic { value.log10() } else { value };
         ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0)
     }
 
-    /// A value with its quantity and unit: `body.cart.mass = 2 kg`; of named places the value is a row.
+    /// A value with its quantity and unit: `body.cart.mass = 2 kg`; for names the value is a row.
     #[must_use]
     pub fn said(&self, value: f64) -> String {
         let (quantity, unit) = match self.label.split_once(" [") {
@@ -85,7 +84,7 @@ impl Scale {
         format!("{quantity} = {words} {unit}").trim_end().to_owned()
     }
 
-    /// At most about so many ticks: shares of the way and texts.
+    /// About the given number of ticks at most: relative positions and texts.
     #[must_use]
     pub fn ticks(&self, most: usize) -> Vec<(f64, String)> {
         if !self.names.is_empty() {
@@ -121,7 +120,7 @@ fn multiples(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
     (0..=count).map(move |n| (first + f64::from(n)) * step)
 }
 
-/// A tick's number; what is much smaller than the range is rounding.
+/// A tick's number; values much smaller than the range are rounding.
 fn shown(value: f64, range: f64) -> String {
     let value = if value.abs() < 1e-9 * range { 0.0 } else { value };
     significant(value, DIGITS).replace('-', "−")

@@ -1,4 +1,4 @@
-//! Changes of a scene that would let its steps be longer: what each is predicted to give, and what it gives when run.
+//! Changes of a scene that would allow longer steps: predicted and measured effect of each.
 
 use dbd_plant::{Frequencies, Method};
 use dbd_scene::Scene;
@@ -14,10 +14,10 @@ use crate::ways::Way;
 /// Changes that are listed, at most.
 const MOST: usize = 3;
 
-/// \[1\] A change whose cost is above this share of the present one is not listed.
+/// \[1\] A change whose cost is above this fraction of the present one is not listed.
 const WORTH: f64 = 0.9;
 
-/// A change of the scene and what it does to the recommended way.
+/// A change of the scene and its effect on the recommended method.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
     /// In words.
@@ -26,8 +26,8 @@ pub struct Change {
     pub set: Vec<String>,
     /// \[1\] the cost per simulated second over that without it, by the frequencies at t = 0: no instruction changes.
     pub predicted: f64,
-    /// \[1\] the same by the largest stable steps of both, found by running them, where a run of the changed scene came to
-    /// its end; `None` where it did not.
+    /// \[1\] the same by the largest stable steps of both, found by running them, where a run of the changed scene came
+    /// to its end; `None` where it did not.
     pub measured: Option<f64>,
     /// \[s\] the step of that run.
     pub step: Option<f64>,
@@ -35,23 +35,23 @@ pub struct Change {
     pub moves: Option<f64>,
 }
 
-/// \[1\] A stiffness becomes so many times what it is: the steps of what it alone holds twice as long.
+/// \[1\] Factor of a stiffness: doubles the step of parts that it alone supports.
 const SOFTER: f64 = 0.25;
 
-/// \[1\] A body becomes so many times as heavy.
+/// \[1\] Factor of a mass.
 const HEAVIER: f64 = 2.0;
 
 /// Single values that are looked at, at most.
 const LOOKED_AT: usize = 40;
 
-/// What might help: words and the changes of values.
+/// Candidates: descriptions and changes of values.
 fn candidates(scene: &Scene) -> Vec<(String, Vec<String>)> {
     let numbers = scene.numbers().unwrap_or_default();
     let set = |numbers: &[&SceneNumber], factor: f64| -> Vec<String> {
         let scaled = numbers.iter().map(|number| (&number.path, number.value * factor));
         scaled.map(|(path, value)| format!("{path}={value:e}")).collect()
     };
-    // Of joints, whose stiffness stands for a rigid one; that of a spring is a property of the mechanism.
+    // Joints only, whose stiffness approximates a rigid one; that of a spring is a property of the mechanism.
     let last = |number: &&SceneNumber| {
         let mut steps = number.path.split('.');
         steps.next() == Some("joint")
@@ -61,10 +61,10 @@ fn candidates(scene: &Scene) -> Vec<(String, Vec<String>)> {
     let stiff: Vec<&SceneNumber> = numbers.iter().filter(last).collect();
     let mut all = Vec::new();
     if stiff.len() > 1 {
-        all.push(("every joint a quarter as stiff".to_owned(), set(&stiff, SOFTER)));
+        all.push(("all joint stiffnesses reduced to a quarter".to_owned(), set(&stiff, SOFTER)));
     }
     for number in stiff.iter().take(LOOKED_AT) {
-        let what = format!("`{}` a quarter of what it is", number.path);
+        let what = format!("`{}` reduced to a quarter", number.path);
         all.push((what, set(&[number], SOFTER)));
     }
     let masses = numbers.iter().filter(|number| number.path.ends_with(".mass"));
@@ -74,7 +74,7 @@ fn candidates(scene: &Scene) -> Vec<(String, Vec<String>)> {
         let whole =
             |number: &&SceneNumber| number.path == mass.path || number.path.starts_with(&inertia);
         let whole: Vec<&SceneNumber> = numbers.iter().filter(whole).collect();
-        let what = format!("`{}` twice as heavy, inertia with it", of.trim_end_matches('.'));
+        let what = format!("mass and inertia of `{}` doubled", of.trim_end_matches('.'));
         all.push((what, set(&whole, HEAVIER)));
     }
     all

@@ -1,4 +1,4 @@
-//! Microcontrollers: how many of their instructions a step takes, and what they may cost.
+//! Microcontrollers: instructions and time of a step.
 //!
 //! `(instructions of a Cortex-M4F, precision) => instructions, seconds`. Instructions are counted in an emulator;
 //! cycles per instruction are estimates from the cores' manuals, and no silicon was measured.
@@ -14,11 +14,11 @@ pub struct Mcu {
     pub clock: f64,
     /// \[1\] Cycles per instruction, an estimate.
     pub cycles: f64,
-    /// \[1\] Instructions of a step over those of a Cortex-M4F, in `f32`, `fixed`, `f64`: the geometric means of three scenes
-    /// (four-bar, hexagon, 3rrr by leapfrog in projects of `host-sim new firmware`), each counted in QEMU by `cargo cost`
-    /// from the same source compiled for the core; the three are within 7 % of each other.
+    /// \[1\] Instructions of a step over those of a Cortex-M4F, in `f32`, `fixed`, `f64`: the geometric means of three
+    /// scenes (four-bar, hexagon, 3rrr by leapfrog in projects of `host-sim new firmware`), each counted in QEMU by
+    /// `cargo cost` from the same source compiled for the core; the three are within 7 % of each other.
     pub factors: [f64; 3],
-    /// What the factors rest on.
+    /// Basis of the factors.
     pub basis: &'static str,
 }
 
@@ -68,8 +68,8 @@ impl Mcu {
         MCUS.iter().find(|mcu| mcu.name == name)
     }
 
-    /// Instructions of a step in a precision that takes so many on a Cortex-M4F; `None` in one that is not for
-    /// firmware.
+    /// Instructions of a step in a precision, given those on a Cortex-M4F; `None` for one that firmware does not
+    /// support.
     #[must_use]
     pub fn instructions(&self, precision: PrecisionName, on_m4f: f64) -> Option<f64> {
         let [single, fixed, double] = self.factors;

@@ -1,9 +1,9 @@
-//! One way of stepping a scene on a microcontroller that meets a request at the least cost.
+//! The cheapest method for a scene on a microcontroller that meets a request.
 //!
-//! `(scene, microcontroller, rate, accuracy) => model, method, step; what limits it; what would help`. Ways are tried from
-//! the least cost that they can have upwards, each with its longest step first, and held against the truth;
-//! what cannot be cheaper than the best is never run. The best is run over ten times the scene before it is
-//! recommended; where that fails, shorter steps and other ways are.
+//! `(scene, microcontroller, rate, accuracy) => model, method, step; its limit; useful changes`. Methods are tried in
+//! ascending order of their lower cost bound, each with its longest step first, and compared with the reference
+//! solution; methods that cannot be cheaper than the best are not run. The best is run over ten times the scene before
+//! it is recommended; if that fails, shorter steps and other methods are tried.
 
 mod changes;
 mod mcu;
@@ -29,7 +29,7 @@ pub use request::{Limit, Request, Way};
 use search::{Search, Trial};
 pub use verify::{Ends, FURTHER};
 
-/// \[1\] The accuracy where none is asked for: a share of how far the bodies go.
+/// \[1\] The default accuracy, as a fraction of the bodies' displacement.
 const SHARE: f64 = 0.01;
 
 /// Models of a mechanism have steps that are longer by at most about this factor.
@@ -46,41 +46,41 @@ pub struct Recommendation {
     pub clock: f64,
     /// Cycles per instruction: an estimate.
     pub cycles_per_instruction: f64,
-    /// \[Hz\] as asked.
+    /// \[Hz\] as requested.
     pub rate: Option<f64>,
-    /// \[m\] as asked, or the default.
+    /// \[m\] as requested, or the default.
     pub accuracy: f64,
-    /// Whether it was asked for.
+    /// Whether it was requested.
     pub accuracy_asked: bool,
     /// \[s\] the window of comparison.
     pub window: f64,
-    /// \[m\] what the truth is known to.
+    /// \[m\] uncertainty of the reference solution.
     pub uncertainty: f64,
-    /// What is recommended.
+    /// The recommended method.
     pub way: Way,
-    /// Whether it meets the request: accurate enough, and less than the whole clock.
+    /// Whether it meets the request: accurate enough, and a load below 1.
     pub meets: bool,
-    /// Why not, and what would.
+    /// Reason and alternative, if it does not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shortfall: Option<String>,
-    /// What keeps its step from being longer.
+    /// Limit of its step.
     pub limit: Limit,
     /// \[s\] the largest stable step of the recommended model and method; `None` where all are.
     pub stable_step: Option<f64>,
-    /// \[m\] the same way in double precision: what rounding costs is the difference.
+    /// \[m\] error of the same method in double precision: the difference is due to rounding.
     pub error_in_f64: Option<f64>,
-    /// How far the run that verified it went: steps and \[s\]; [`FURTHER`] times the scene where that is affordable.
+    /// Extent of the verifying run: steps and \[s\]; [`FURTHER`] times the scene if that is affordable.
     pub verified: (u64, f64),
-    /// How the scene as it is comes to an end in any step: it is verified over its duration alone.
+    /// Failure of the scene with any step: it is verified over its duration only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ends: Option<Ends>,
-    /// Ways that were run, and all that there are.
+    /// Number of methods run, and of all.
     pub tried: (usize, usize),
     /// Changes of the scene that would help most.
     pub changes: Vec<Change>,
     /// The changes of values that make the recommended model of the scene.
     pub set: Vec<String>,
-    /// What would be taken without a request for accuracy, where that is not reached in real time.
+    /// Choice without a required accuracy, if that is not reached in real time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fastest: Option<Way>,
 }
@@ -92,34 +92,37 @@ pub enum AdviseError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Window(#[from] WindowError),
-    /// There is no truth to compare with.
+    /// There is no reference solution to compare with.
     #[error(transparent)]
     #[diagnostic(transparent)]
     NoTruth(#[from] NoTruth),
-    /// No step is stable, or no precision holds the scene.
-    #[error("no way of stepping the scene comes to the end of {}", shown(*window))]
+    /// No step is stable, or no precision represents the scene.
+    #[error("no method completes {} of the scene", shown(*window))]
     #[diagnostic(help(
-        "`host-sim check` says what is unusual about the scene, `--window` takes a shorter comparison"
+        "run `host-sim check` to find problems of the scene, or shorten the comparison with `--window`"
     ))]
     None {
         /// \[s\].
         window: f64,
     },
-    /// Asked for more than the truth is known to.
+    /// The requested accuracy is below the uncertainty of the reference solution.
     #[error(
-        "an accuracy of {asked:.1e} m cannot be verified: the truth itself is known to {known:.1e} m"
+        "an accuracy of {asked:.1e} m cannot be verified: the reference solution is accurate to {known:.1e} m"
     )]
-    #[diagnostic(help("at least {known:.1e} m; over a shorter --window it is known better"))]
+    #[diagnostic(help(
+        "ask for at least {known:.1e} m, or use a shorter --window, over which the \
+         reference is more accurate"
+    ))]
     Accuracy {
-        /// \[m\] as asked.
+        /// \[m\] as requested.
         asked: f64,
         /// \[m\].
         known: f64,
     },
     /// The scene has laws whose cost is not known.
-    #[error("what a step of this scene costs on a microcontroller is not known: {why}")]
+    #[error("the cost of a step of this scene on a microcontroller is unknown: {why}")]
     #[diagnostic(help(
-        "`host-sim new firmware SCENE` makes a project that counts it: `cargo cost`"
+        "run `host-sim new firmware SCENE` and count the instructions there with `cargo cost`"
     ))]
     Uncounted {
         /// Why.
@@ -131,7 +134,7 @@ pub enum AdviseError {
     Plant(#[from] PlantError),
 }
 
-/// What to take for a scene. `progress` hears what it is at.
+/// Recommends a method for a scene. `progress` receives the current phase.
 ///
 /// # Errors
 /// [`AdviseError`].
@@ -149,7 +152,7 @@ pub fn recommend(
     };
     let mut frame = frame(scene, &options)?;
     if period.is_none() {
-        // Other models of the mechanism take longer steps.
+        // Other models of the mechanism allow longer steps.
         let highest = Frequencies::of(scene).estimate / SLOWER;
         frame.unit = unit(scene, None, highest).unwrap_or(frame.unit);
     }
@@ -162,7 +165,7 @@ pub fn recommend(
     let mut search = Search::new(scene, request, head, truth);
     if search.candidates.is_empty() {
         let why =
-            "it has laws that are not the project's, or no counted method steps it".to_owned();
+            "it uses custom laws, or no method with counted instructions can run it".to_owned();
         return Err(AdviseError::Uncounted { why });
     }
     let accuracy = request.accuracy.unwrap_or_else(|| (SHARE * search.travel()).max(known));
@@ -182,7 +185,7 @@ pub fn recommend(
                     search.too_slow(trial, quick.as_ref().map(|(quick, _)| quick))
                 }
                 (None, Some(best), _) => format!(
-                    "nothing that was tried is as accurate as {accuracy:.1e} m; the best is off by {:.1e} m",
+                    "no tested method reaches an accuracy of {accuracy:.1e} m; the best has an error of {:.1e} m",
                     best.error
                 ),
                 (None, None, _) => return Err(AdviseError::None { window }),

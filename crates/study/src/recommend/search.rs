@@ -1,4 +1,4 @@
-//! The ways of stepping a scene, cheapest first, each run only where it may be the best.
+//! Search over the methods of a scene, cheapest first, each run only if it may be the best.
 
 mod outcome;
 
@@ -22,25 +22,25 @@ use crate::ways::{Way as Stepped, ways};
 
 pub(super) use outcome::load;
 
-/// Steps of a way that are tried at most.
+/// Maximum number of steps tried per method.
 const TRIES: usize = 6;
 
-/// A step that is shorter by this factor than asked by the order of an error.
+/// Safety factor on a step from the convergence order.
 const SAFER: f64 = 1.1;
 
 /// An error that falls by less is no longer that of the step.
 const FALLS: f64 = 0.9;
 
-/// A shorter step that takes so many of the microcontroller's usual clocks is not tried.
+/// Maximum load of a step, in multiples of the microcontroller's usual clock.
 const HOPELESS: f64 = 20.0;
 
-/// Steps × bodies of a run for accuracy, at most: a way that needs more costs a chip more than it has.
+/// Maximum steps × bodies of a run for accuracy: more exceed the capacity of a microcontroller.
 const AFFORDABLE: f64 = 1e8;
 
 /// A step that failed later is followed by one that is shorter by this factor.
 const SHORTER: f64 = 0.7;
 
-/// A way whose step would be shorter than the largest advised one by more than this factor is given up.
+/// A method whose step would be shorter than the largest advised one by more than this factor is abandoned.
 const LEAST: f64 = 1.0 / 64.0;
 
 /// A model of the mechanism and what bounds its steps.
@@ -49,11 +49,11 @@ pub(super) struct Model {
     pub(super) scene: Scene,
     limits: Limits,
     frequencies: Frequencies,
-    /// How it comes to an end in short steps, too, where that was looked at.
+    /// Failure with short steps, if checked.
     ends: Option<Option<Ends>>,
 }
 
-/// What failed beyond the window of comparison.
+/// Failures beyond the window of comparison.
 #[derive(Clone, Copy, Debug)]
 struct Failed {
     /// \[s\] no step of it is longer.
@@ -62,7 +62,7 @@ struct Failed {
     at: f64,
 }
 
-/// A way of stepping a model.
+/// A method for a model.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub(super) model: usize,
@@ -93,7 +93,7 @@ impl Trial {
     }
 }
 
-/// All candidates and what is known of them.
+/// All candidates and their known data.
 pub(super) struct Search<'s> {
     pub(super) scene: &'s Scene,
     request: &'s Request,
@@ -143,7 +143,7 @@ impl<'s> Search<'s> {
         search
     }
 
-    /// All ways of all models whose cost is known, ascending in the least cost that they can have.
+    /// All methods of all models with known cost, in ascending order of their lower cost bound.
     fn all(&self) -> Vec<Candidate> {
         let costs = Costs::shipped();
         let mut all = Vec::new();
@@ -190,7 +190,7 @@ impl<'s> Search<'s> {
         Some((here, counted.is_some()))
     }
 
-    /// \[m\] how far the bodies go from their start.
+    /// \[m\] displacement of the bodies from their start.
     pub(super) fn travel(&self) -> f64 {
         self.travel
     }
@@ -213,7 +213,7 @@ impl<'s> Search<'s> {
             .or_insert_with(|| limits.limit(&way, decisive.map(|method| limits.found(&method))))
     }
 
-    /// \[m\] how far a candidate is off with so many steps per interval; `None` where it fails.
+    /// \[m\] error of a candidate with the given steps per interval; `None` if it fails.
     fn error(&mut self, candidate: usize, steps: u64) -> Option<f64> {
         if let Some(known) = self.errors.get(&(candidate, steps)) {
             return *known;
@@ -224,7 +224,7 @@ impl<'s> Search<'s> {
         error
     }
 
-    /// \[m\] how far a run of a model by a method is from the truth; `None` where it fails.
+    /// \[m\] error of a run of a model by a method; `None` if it fails.
     pub(super) fn measured(&self, model: &Scene, method: &Method, steps: u64) -> Option<f64> {
         let states = self.run(model, method, steps)?;
         let error = distance((self.scene, &self.truth), (model, &states));
@@ -244,7 +244,7 @@ impl<'s> Search<'s> {
         Some(states)
     }
 
-    /// The cheapest way that is at most so far off \[m\] and was carried as far as it has to be, and its steps.
+    /// The cheapest method with at most the given error \[m\] whose run was verified, and its steps.
     pub(super) fn verified(&mut self, accuracy: f64) -> Result<Option<(Trial, u64)>, PlantError> {
         while let Some(trial) = self.cheapest(accuracy) {
             if let Some(steps) = self.carried(&trial)? {
@@ -254,8 +254,8 @@ impl<'s> Search<'s> {
         Ok(None)
     }
 
-    /// Runs a trial over [`FURTHER`] times the scene's duration, or over that alone where the scene itself goes no
-    /// further; how many steps. Where it fails, `None`: no step of it will be as long again.
+    /// Runs a trial over [`FURTHER`] times the scene's duration, or over the duration if the scene itself fails beyond
+    /// it; returns the steps. `None` if it fails: later steps of it are shorter.
     pub(super) fn carried(&mut self, trial: &Trial) -> Result<Option<u64>, PlantError> {
         let (duration, row) = (self.scene.duration, self.candidates[trial.candidate].model);
         let until = if self.ends().is_some() { duration } else { FURTHER * duration };
@@ -267,7 +267,7 @@ impl<'s> Search<'s> {
             known.get_or_insert_with(|| ends(scene, FURTHER * duration));
         }
         if self.ends().is_some() && at > duration {
-            // As far as the scene goes, it may do.
+            // The scene's duration suffices.
             return self.carried(trial);
         }
         let own = self.models[row].ends.as_ref().and_then(Option::as_ref);
@@ -279,12 +279,12 @@ impl<'s> Search<'s> {
         Ok(None)
     }
 
-    /// How the scene as it is comes to an end in any step, where that was found.
+    /// Failure of the scene with any step, if found.
     pub(super) fn ends(&self) -> Option<&Ends> {
         self.models[0].ends.as_ref()?.as_ref()
     }
 
-    /// The cheapest way that is at most so far off \[m\].
+    /// The cheapest method with at most the given error \[m\].
     fn cheapest(&mut self, accuracy: f64) -> Option<Trial> {
         let mut best: Option<Trial> = None;
         for row in 0..self.candidates.len() {
@@ -300,7 +300,7 @@ impl<'s> Search<'s> {
         best
     }
 
-    /// A candidate's longest step that is at most so far off \[m\], where it costs less than `cost`.
+    /// A candidate's longest step with at most the given error \[m\], if it costs less than `cost`.
     pub(super) fn longest(&mut self, row: usize, accuracy: f64, cost: f64) -> Option<Trial> {
         let candidate = self.candidates[row];
         let Candidate { method, instructions, .. } = candidate;

@@ -57,7 +57,7 @@ fn leapfrog(search: &mut Search<'_>) -> Trial {
     search.longest(row, f64::INFINITY, f64::INFINITY).unwrap()
 }
 
-/// What is left out because it cannot be cheaper is not cheaper: of all ways at their longest steps none is.
+/// Excluded methods are not cheaper at their longest steps.
 #[test]
 fn nothing_that_was_not_run_is_cheaper() {
     let (scene, request) = (arm(), request(None));
@@ -95,7 +95,7 @@ fn vibrations_limit_a_step_by_their_frequency() {
     }
 }
 
-/// A softer joint gives what its frequency says, and a spring that is the mechanism's own is left alone.
+/// A softer joint has the predicted effect, and springs of the mechanism are unchanged.
 #[test]
 fn what_would_help_is_measured() {
     let (scene, request) = (arm(), request(None));
@@ -110,7 +110,7 @@ fn what_would_help_is_measured() {
     assert!(changes.iter().all(|change| !change.set[0].contains("tsda")));
 }
 
-/// A stricter accuracy costs more, and is kept; the run that verifies goes over the whole scene.
+/// A stricter accuracy costs more, and is met; the verifying run covers the whole scene.
 #[test]
 fn accuracy_is_paid_for() {
     let of = |accuracy| recommend(&arm(), &request(Some(accuracy)), &mut |_| ()).unwrap();
@@ -134,7 +134,7 @@ fn driven_disc(stiffness: f64, torque: f64) -> Scene {
     Scene::parse(&text, "disc.toml").unwrap()
 }
 
-/// A step that turns the disc too far only long after the scene's end is not advised.
+/// A step that rotates the disc too far only long after the scene's end is not advised.
 #[test]
 fn what_fails_later_is_not_advised() {
     let asked = Request { window: Some(0.2), ..request(Some(0.05)) };
@@ -143,11 +143,12 @@ fn what_fails_later_is_not_advised() {
     assert!(fails > 0.2 && fails < FURTHER * 0.2 + 1e-9, "{fails}");
     assert!(found.meets && found.ends.is_none(), "{found:#?}");
     assert!((found.verified.1 - FURTHER * 0.2).abs() < 1e-9, "{found:#?}");
-    // At the end it turns at 2000 rad/s.
+    // At the end it rotates at 2000 rad/s.
     assert!(found.way.step < 1.01 / 2000.0 && found.way.step > 0.25 / 2000.0, "{found:#?}");
 }
 
-/// A scene that no step carries further is verified over its own duration, and the recommendation states its end.
+/// A scene that fails beyond its duration with any step is verified over its duration, and the recommendation states
+/// the failure.
 #[test]
 fn a_scene_that_ends_is_verified_up_to_its_duration() {
     let asked = Request { window: Some(0.2), ..request(None) };

@@ -1,35 +1,36 @@
 //! The runs that a recommendation has to pass before it is given.
 //!
-//! `(model, method, step, time) => steps that went well, when it failed`. A step that is stable at t = 0 may fail later, as
-//! frequencies and speeds rise along the motion; a mechanism may also come apart by itself, whatever the step.
+//! `(model, method, step, time) => steps that went well, when it failed`. A step that is stable at t = 0 may fail
+//! later, as frequencies and speeds rise along the motion; a mechanism may also come apart by itself, whatever the
+//! step.
 
 use dbd_plant::judge::{Judge, Opening};
 use dbd_plant::{Frequencies, Method, PlantError, plant};
 use dbd_scene::Scene;
 use serde::Serialize;
 
-/// A recommendation is run over so many times the scene's duration.
+/// Factor of the scene's duration over which a recommendation is run.
 pub const FURTHER: f64 = 10.0;
 
 /// Steps × bodies of a run, at most: about a minute.
 const AFFORDABLE: f64 = 3e8;
 
-/// Looks at a run.
+/// Number of checks of a run.
 const LOOKS: u64 = 500;
 
-/// A model that so many steps in a default step of leapfrog in double precision do not carry is carried by none.
+/// A model that fails with this many steps per default step of leapfrog in double precision fails with any.
 const FINER: f64 = 16.0;
 
-/// How far a run came.
+/// Extent of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Followed {
     /// Steps that went well.
     pub(super) steps: u64,
-    /// \[s\] when it failed, within one look; `None` where it did not.
+    /// \[s\] time of failure, within one check interval; `None` if it did not fail.
     pub(super) fails: Option<f64>,
 }
 
-/// When and how a scene comes to an end of its own.
+/// Time and cause of a scene's failure with any step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ends {
     /// \[s\] about when.
@@ -39,7 +40,7 @@ pub struct Ends {
     pub joint: Option<String>,
 }
 
-/// Runs a model over a time \[s\], or as far as is affordable.
+/// Runs a model over a time \[s\], or as long as is affordable.
 ///
 /// # Errors
 /// [`PlantError`] where the method cannot step it.
@@ -52,7 +53,7 @@ pub(super) fn follow(
     look(model, method, step, until, &mut |_, _| false)
 }
 
-/// How a model comes to an end over a time \[s\] in short steps, which is its own doing; `None` where they carry it.
+/// Failure of a model over a time \[s\] with short steps; `None` if they complete.
 pub(super) fn ends(model: &Scene, until: f64) -> Option<Ends> {
     let method = Method::default();
     let step = Frequencies::of(model).default_limit(&method, model.duration) / FINER;
@@ -68,7 +69,7 @@ pub(super) fn ends(model: &Scene, until: f64) -> Option<Ends> {
     apart.or_else(|| fails.map(|time| Ends { time, joint: None }))
 }
 
-/// Runs a model until a look at it says so.
+/// Runs a model until a check ends it.
 fn look(
     model: &Scene,
     method: &Method,

@@ -18,7 +18,7 @@ pub(crate) fn join(linear: Vector3<f64>, angular: Vector3<f64>) -> Vector6<f64> 
     Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }
 
-/// How a spring lengthens with the motion of either body; `None` at an end that is none.
+/// Gradient of a spring's length with respect to the motion of either body; `None` at the ground.
 pub(crate) fn levers(at: &Instant<'_>, spring: &Spring) -> [Option<(usize, Vector6<f64>)>; 2] {
     let row = |end: usize, sign: f64| match spring.ends[end] {
         End::Body(body) => {
@@ -32,7 +32,7 @@ pub(crate) fn levers(at: &Instant<'_>, spring: &Spring) -> [Option<(usize, Vecto
 
 /// A symmetric positive definite matrix of 6×6 blocks, its pattern fixed.
 pub(crate) struct BlockMatrix {
-    /// The place of each body in the order of elimination.
+    /// The index of each body in the order of elimination.
     places: Vec<usize>,
     /// Per block column its block rows, ascending.
     columns: Vec<Vec<usize>>,

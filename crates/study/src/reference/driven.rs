@@ -1,4 +1,4 @@
-//! What drives a mechanism from outside: loads, inputs and tables over sensors.
+//! External excitation of a mechanism: loads, inputs and tables over sensors.
 //!
 //! `(instant: windows, signals) => wrenches on bodies`.
 
@@ -35,12 +35,12 @@ impl Element for Load {
     }
 }
 
-/// A table over what a sensor reads, without a delay: what a plant's steps come to as they get smaller.
+/// A table over a sensor's value, without a delay: the limit of a plant's small steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
     /// The input that it drives.
     pub row: usize,
-    /// What is read.
+    /// The sensor.
     pub sensor: KernelSensor<F64>,
     /// The direction of a vector's column.
     pub weights: [f64; 3],
@@ -51,7 +51,7 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// What its input says at an instant; `torsions` are the mechanism's.
+    /// The value of its input at an instant; `torsions` are the mechanism's.
     #[must_use]
     pub fn value(&self, instant: &Instant<'_>, torsions: &[TorsionSpring]) -> f64 {
         let place = |row: usize, local: [f64; 3]| {
@@ -76,20 +76,20 @@ impl Sensor {
 
 /// An input that pushes.
 pub struct Input {
-    /// Its place among the mechanism's inputs.
+    /// Its index among the mechanism's inputs.
     pub row: usize,
-    /// What it does.
+    /// Its effect.
     pub kind: InputKind,
 }
 
-/// What an input does with its signal.
+/// Effect of an input.
 pub enum InputKind {
     /// A force along a direction at a point.
     Force(Point, Vector3<f64>, LoadFrame),
     /// A torque about an axis.
     Torque(End, Vector3<f64>, LoadFrame),
-    /// A torque on the second along the gradient of its turn about an axis, in the axes of each, on the
-    /// first the opposite.
+    /// A torque on the second along the gradient of its rotation about an axis, in the axes of each, on the first the
+    /// opposite.
     JointTorque([End; 2], [Vector3<f64>; 2]),
     /// A tension between two points.
     Actuator(Pair),
@@ -107,7 +107,7 @@ impl Element for Input {
                 turn(wrenches, *end, at.turned(*end, *frame, *axis) * value);
             }
             InputKind::JointTorque([a, b], axes) => {
-                // Half way between the two axes, with the length that the swing between them asks for.
+                // Midway between the two axes, with the length that follows from the swing between them.
                 let [first, second] = [at.to_world(*a, axes[0]), at.to_world(*b, axes[1])];
                 let half = 0.5 * first.angle(&second);
                 let torque = (first + second).normalize() * (value / half.cos());

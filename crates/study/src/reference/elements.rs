@@ -11,7 +11,7 @@ use crate::reference::instant::{End, Instant, Placed, Point, Wrench};
 
 /// Whatever pushes bodies.
 pub trait Element: Send + Sync {
-    /// Adds what it does to the bodies.
+    /// Adds its wrenches to the bodies.
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]);
 
     /// The ends that its springs join, `None` where it has none.
@@ -19,8 +19,8 @@ pub trait Element: Send + Sync {
         None
     }
 
-    /// Visits the linear springs that it is made of at this instant, unloaded: what its tension
-    /// would add is left out, so that the sum is positive semidefinite.
+    /// Visits its linear springs at this instant, unloaded: the geometric stiffness is omitted, so that the sum is
+    /// positive semidefinite.
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
         let _ = (at, visit);
     }
@@ -31,9 +31,9 @@ pub trait Element: Send + Sync {
 pub struct Spring {
     /// First and second body.
     pub ends: [End; 2],
-    /// Unit direction, world axes; 0 where it only turns.
+    /// Unit direction, world axes; 0 if it only rotates.
     pub direction: Vector3<f64>,
-    /// Arm × direction of either end, or the axis of a turn, world axes.
+    /// Lever arm × direction of either end, or the axis of a rotation, world axes.
     pub moments: [Vector3<f64>; 2],
     /// \[m/s, rad/s\] the rate at which it lengthens.
     pub rate: f64,
@@ -46,9 +46,9 @@ pub struct Spring {
 /// Two points, the second one perhaps on a line through the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// Where the first end holds.
+    /// First attachment point.
     pub a: Point,
-    /// Where the second end holds.
+    /// Second attachment point.
     pub b: Point,
     /// Unit direction of a line of the first body, its axes.
     pub line: Option<Vector3<f64>>,
@@ -283,8 +283,7 @@ impl Element for Revolute {
     }
 }
 
-/// A universal joint without a body of its own: a point bushing, and an axis of either body held
-/// perpendicular to the other's.
+/// A universal joint without a spider: a point bushing, and an axis of either body held perpendicular to the other's.
 pub struct Universal {
     /// Its points.
     pub pair: Pair,
@@ -299,7 +298,7 @@ pub struct Universal {
 }
 
 impl Universal {
-    /// \[m\] how far the axes lean from square, and what that gains for a turn of the second body.
+    /// \[m\] the axes' deviation from perpendicular, and its gradient for a rotation of the second body.
     fn lean(&self, at: &Instant<'_>) -> (f64, Vector3<f64>) {
         let lever = at.to_world(self.pair.a.end, self.lever);
         let axis = at.to_world(self.pair.b.end, self.axis);
@@ -395,7 +394,7 @@ impl Element for PointOnLine {
 pub struct TorsionSpring {
     /// First and second body.
     pub ends: [End; 2],
-    /// Its place among the mechanism's torsion springs.
+    /// Its index among the mechanism's torsion springs.
     pub row: usize,
     /// Unit axis in the first body's axes.
     pub axis: Vector3<f64>,
@@ -405,22 +404,22 @@ pub struct TorsionSpring {
     pub stiffness: f64,
     /// \[N·m·s/rad\].
     pub damping: f64,
-    /// \[N·m\] torque on the second body at twist 0.
+    /// \[N·m\] torque on the second body at torsion angle 0.
     pub preload: f64,
 }
 
-/// A twist at an instant.
+/// A torsion angle at an instant.
 pub struct Twist {
-    /// \[rad\] since t = 0, every turn counted.
+    /// \[rad\] since t = 0, including full revolutions.
     pub angle: f64,
     /// \[rad/s\].
     pub rate: f64,
-    /// What the angle gains for a small turn of the second body, world axes.
+    /// Gradient of the angle for a small rotation of the second body, world axes.
     gradient: Vector3<f64>,
 }
 
 impl TorsionSpring {
-    /// The twist: the swing–twist angle about the axis, on the winding nearest the last known.
+    /// The torsion angle: the swing–twist angle about the axis, on the revolution nearest to the last one.
     #[must_use]
     pub fn twist(&self, at: &Instant<'_>) -> Twist {
         let [a, b] = self.ends;

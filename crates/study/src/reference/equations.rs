@@ -1,10 +1,9 @@
 //! A mechanism as a system of first-order equations, for any integrator.
 //!
-//! `y => ẏ`: per body x, q, v, ω with `ẋ = v`, `q̇ = ½·q∘ω`; then the twists of the torsion springs,
-//! whose integral counts the turns that a pose cannot tell; then the time. Poses are read from
-//! q/|q|, so that its length, which integration lets drift, changes nothing. The time is a state
-//! like any other, so that stages lie where the integrator's matrix puts them, whatever nodes its
-//! table names.
+//! `y => ẏ`: per body x, q, v, ω with `ẋ = v`, `q̇ = ½·q∘ω`; then the torsion angles, whose integral counts revolutions
+//! that a pose does not determine; then the time. Poses are read from q/|q|, so that the drift of its length has no
+//! effect. The time is a state like any other, so that stages follow the integrator's matrix, independent of the nodes
+//! in its table.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 

@@ -1,9 +1,9 @@
-//! The truth of a scene with interactions: the kernel at fine steps.
+//! The reference solution of a scene with interactions: the kernel at fine steps.
 //!
-//! `(scene, opinion, times) => states`. The references know no laws of interactions, which may be a user's own and may
-//! remember. So these scenes are held against leapfrog in double precision with short steps; twice the step
-//! is the second opinion, and how far the two are apart says what the truth is worth: of order 2 where forces are
-//! smooth, of order 1 where a stop is met within a step.
+//! `(scene, opinion, times) => states`. The references do not implement laws of interactions, which may be user-defined
+//! and have internal states. So these scenes are compared with leapfrog in double precision with short steps; twice the
+//! step is the second opinion, and the distance between the two is the uncertainty: of order 2 for smooth forces, of
+//! order 1 if a stop is hit within a step.
 
 use dbd_plant::{Frequencies, Method, plant};
 use dbd_scene::Scene;
@@ -13,14 +13,14 @@ use crate::reference::perturbed::{perturbation, perturbed as nearby};
 use crate::reference::state::State;
 use crate::reference::truth::{NoTruth, Opinion, integrate};
 
-/// Steps of the truth in a default step of leapfrog.
+/// Steps of the reference solution per default step of leapfrog.
 const FINER: f64 = 32.0;
 
 /// The states of a scene at ascending times \[s\] from t = 0, equally spaced; `perturbed` from a state nearby, see
 /// [`perturbation`].
 ///
 /// # Errors
-/// Where the integrator gives up, or a step of the kernel fails.
+/// If the integrator or a step of the kernel fails.
 pub fn states(
     opinion: Opinion,
     scene: &Scene,

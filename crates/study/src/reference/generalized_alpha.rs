@@ -1,4 +1,4 @@
-//! Generalised-α on Lie groups with one sparse solve, for joints that are all but rigid.
+//! Generalised-α on Lie groups with one sparse solve, for nearly rigid joints.
 //!
 //! `(mechanism, state, step, ρ∞) => state` (Chung & Hulbert 1993; on Lie groups Brüls, Cardona & Arnold 2012), with
 //! the residual at the predicted pose and one Newton step from there, which is all that second order takes. Per body
@@ -8,16 +8,16 @@
 //! 2. `((1−α_m)/(1−α_f)·M + γ·h·C + β·h²·K)·a⁺ = F(q̂, û) + M·(α_f·d − α_m·a)/(1−α_f)`
 //! 3. `u⁺ = û + γ·h·a⁺`, `q⁺ = q̂ ∘ exp(β·h²·a⁺)`, `d⁺ = ((1−α_m)·a⁺ + α_m·a − α_f·d)/(1−α_f)`
 //!
-//! With dampers the remembered a predicts the whole step: F is taken at û + γ·h·a and at the pose with β·h²·a, and the
+//! With dampers the stored a predicts the whole step: F is taken at û + γ·h·a and at the pose with β·h²·a, and the
 //! solution is a⁺ − a, which the matrix's damping, one of lumped joints, multiplies to first order in h only.
 //!
-//! C and K as in [`crate::reference::implicit`], so that a factor exists for every step. They leave the gyroscopic torque out,
-//! whose change within the step would be lost; F has it at û + γ·h·a, not at û: without that a tumbling body is
-//! followed to first order only. Second order in the slow motion, and
+//! C and K as in [`crate::reference::implicit`], so that a factor exists for every step. They leave the gyroscopic
+//! torque out, whose change within the step would be lost; F has it at û + γ·h·a, not at û: without that a tumbling
+//! body is followed to first order only. Second order in the slow motion, and
 //! whatever vibrates fast against the step is damped by ρ∞ in each. Loads and tables jump where a step begins.
 //!
-//! A first step knows no accelerations. It takes one for all of it, that at which the joints close at its part τ,
-//! `½·τ² = β·(1−α_f)/(1−α_m)`: with the same matrix from `q ∘ exp(τ·h·u)`, `a = d`.
+//! A first step has no accelerations. It uses one value for the whole step, that at which the joints close at its
+//! fraction τ, `½·τ² = β·(1−α_f)/(1−α_m)`: with the same matrix from `q ∘ exp(τ·h·u)`, `a = d`.
 
 use nalgebra::{DVector, Matrix6, Vector3, Vector6};
 
@@ -26,7 +26,7 @@ use crate::reference::mechanism::{Acceleration, Mechanism};
 use crate::reference::signals::Clock;
 use crate::reference::state::State;
 
-/// A mechanism on its way through time.
+/// A mechanism in time integration.
 pub struct GeneralizedAlpha<'m> {
     mechanism: &'m Mechanism,
     /// The present state.
@@ -62,7 +62,7 @@ impl Weights {
 }
 
 impl<'m> GeneralizedAlpha<'m> {
-    /// What of a vibration is left after a step that does not resolve it at all, where nothing else is asked for.
+    /// Default amplitude factor per step of an unresolved vibration.
     pub const RHO: f64 = 0.5;
 
     /// A run from `state` at t = 0 with a step \[s\]; `rho` is ρ∞, from 0 to 1.
@@ -79,8 +79,8 @@ impl<'m> GeneralizedAlpha<'m> {
         Self { mechanism, state, step, steps: 0, weights, memory: Vec::new(), matrix, is_damped }
     }
 
-    /// Takes the accelerations that the present state has in the coming step: what was known is of another
-    /// motion where a load or a table has jumped.
+    /// Resets the accelerations to those of the present state in the coming step: the stored ones are invalid after a
+    /// jump of a load or a table.
     fn begin(&mut self) {
         let clock = Clock::between(self.time(), self.piece());
         let at = self.mechanism.at(&self.state, clock);
@@ -158,7 +158,7 @@ impl<'m> GeneralizedAlpha<'m> {
         self.mechanism.settle(&mut self.state);
     }
 
-    /// The solution at the present pose with what is remembered; the step lies in `piece` \[s\].
+    /// The solution at the present pose with the stored accelerations; the step lies in `piece` \[s\].
     fn accelerations(&mut self, piece: [f64; 2]) -> Vec<Vector6<f64>> {
         let (h, w) = (self.step, self.weights);
         let mut right = DVector::zeros(6 * self.mechanism.bodies.len());

@@ -1,11 +1,10 @@
-//! Linearly implicit Euler with one sparse solve, as real-time models of suspensions take it.
+//! Linearly implicit Euler with one sparse solve, as in real-time models of suspensions.
 //!
 //! `(mechanism, state, step) => state`:
 //! `(M + h·C + h²·K)·Δv = h·F(q, v) − h²·K·v`, `v ← v + Δv`, `q ← q ∘ h·v` (Baraff & Witkin 1998).
-//! K and C are the elements' analytic tangents without the share of their tension, symmetric and
-//! positive semidefinite whatever the pose, so that a Cholesky factor exists for every step; the
-//! pattern and its order of elimination are found once. First order, and it damps whatever
-//! vibrates fast against the step.
+//! K and C are the elements' analytic tangents without the geometric stiffness, symmetric and positive semidefinite in
+//! any pose, so that a Cholesky factor exists for every step; the pattern and its order of elimination are computed
+//! once. First order; damps vibrations that the step does not resolve.
 
 use nalgebra::{DVector, Matrix6, Vector3};
 
@@ -16,7 +15,7 @@ use crate::reference::mechanism::Mechanism;
 use crate::reference::signals::Clock;
 use crate::reference::state::State;
 
-/// A mechanism on its way through time.
+/// A mechanism in time integration.
 pub struct Implicit<'m> {
     mechanism: &'m Mechanism,
     /// The present state.

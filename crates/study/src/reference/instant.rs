@@ -1,4 +1,4 @@
-//! One instant: where bodies and their points are and how they move, and what pushes them.
+//! One instant: positions and velocities of bodies and their points, and wrenches.
 //!
 //! `(state, time, signals) => poses; point => position, arm, velocity in the world`.
 
@@ -26,7 +26,7 @@ pub struct Wrench {
     pub torque: Vector3<f64>,
 }
 
-/// What an element holds on to.
+/// An attachment of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     /// The ground.
@@ -65,7 +65,7 @@ pub struct Instant<'s> {
     pub clock: Clock,
     /// The inputs' signals.
     pub signals: Vec<Signal>,
-    /// \[rad\] last known twists.
+    /// \[rad\] last known torsion angles.
     pub twists: &'s [f64],
     state: &'s State,
     poses: Vec<Pose>,
@@ -163,7 +163,7 @@ impl<'s> Instant<'s> {
         }
     }
 
-    /// \[rad/s\] the spin of an end, world axes.
+    /// \[rad/s\] the angular velocity of an end, world axes.
     #[must_use]
     pub fn spin(&self, end: End) -> Vector3<f64> {
         match end {

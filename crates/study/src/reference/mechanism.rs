@@ -1,7 +1,7 @@
 //! A mechanism: bodies, a field of gravity and a list of boxed elements.
 //!
-//! `model's data => mechanism; (state, time) => accelerations`. Newton and Euler per body; every
-//! element places its own points.
+//! `model's data => mechanism; (state, time) => accelerations`. Newton and Euler per body; every element computes its
+//! own points.
 
 use dbd_kernel::elements::input::InputKind as KernelInput;
 use dbd_kernel::elements::source::SourceLaw;
@@ -33,7 +33,7 @@ pub struct Mechanism {
     pub bodies: Vec<Body>,
     /// \[m/s²\].
     pub gravity: Vector3<f64>,
-    /// What acts between the bodies and on them.
+    /// Elements, loads and inputs.
     pub elements: Vec<Box<dyn Element>>,
     torsions: Vec<TorsionSpring>,
     tables: Vec<Table>,
@@ -166,12 +166,12 @@ impl Mechanism {
         self.respond(&self.at(state, Clock::at(time)))
     }
 
-    /// \[rad/s\] the rates of the torsion springs' twists at an instant.
+    /// \[rad/s\] the rates of the torsion angles at an instant.
     pub fn twist_rates(&self, at: &Instant<'_>) -> impl Iterator<Item = f64> {
         self.torsions.iter().map(|spring| spring.twist(at).rate)
     }
 
-    /// Brings the last known twists up to the pose.
+    /// Updates the last known torsion angles to the pose.
     pub fn settle(&self, state: &mut State) {
         if self.torsions.is_empty() {
             return;
@@ -190,8 +190,8 @@ fn end(body: BodyIndex) -> End {
     }
 }
 
-/// The points of element `i` of a group: a star's first body has one point, the second body's lie
-/// behind all of them, once or once per star.
+/// The points of element `i` of a group: a spring triple has one point on its first body; the second body's points
+/// follow all of them, once or once per triple.
 fn pair<T: Terms<F64>>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> Pair {
     let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
     let first = usize::from(group.point);
@@ -258,7 +258,7 @@ fn torsion<T: Terms<F64>>(model: &ModelRef<'_, F64, T>, row: usize) -> TorsionSp
     }
 }
 
-/// What an input pushes; `None` of a number that laws read and of an anchor, which moves points instead.
+/// The action of an input; `None` for a number read by laws and for an anchor, which moves points instead.
 fn input_kind<T: Terms<F64>>(
     model: &ModelRef<'_, F64, T>,
     kind: &KernelInput<F64>,

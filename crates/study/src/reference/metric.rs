@@ -1,10 +1,10 @@
-//! How far two poses of a mechanism are apart, with and without attitudes.
+//! Distance of two poses of a mechanism, with and without attitudes.
 //!
 //! `(bodies, poses, poses) => \[m\]`: per body the square of the distance of the centres of mass plus
 //! the square of the angle between the attitudes times the square of a radius: the root mean square
-//! distance of the body's mass from its centre, trace(I)/(2m). The trace makes it a mean over
-//! directions: a turn about a thin rod's own axis counts as one about any other. Then the mean over
-//! bodies, and the root. [`distance`] is the same of positions alone.
+//! distance of the body's mass from its centre, trace(I)/(2m). The trace makes it a mean over directions: a rotation
+//! about a thin rod's axis counts like one about any other. Then the mean over bodies, and the root. [`distance`] is
+//! the same of positions alone.
 
 use nalgebra::Vector3;
 
@@ -39,8 +39,8 @@ impl Metric {
         (sum / self.squares.len().max(1) as f64).sqrt()
     }
 
-    /// \[m\] the root mean square over samples of the distance of a run from the truth; infinite
-    /// where the run lacks samples or is not finite.
+    /// \[m\] the root mean square over samples of the distance of a run from the reference solution; infinite if the
+    /// run lacks samples or is not finite.
     #[must_use]
     pub fn error(&self, truth: &[State], run: &[State]) -> f64 {
         let squares = truth.iter().zip(run).map(|(a, b)| self.distance(a, b).powi(2));

@@ -1,8 +1,8 @@
-//! References in plain std Rust: another way to the same equations, sharing no force code with
-//! the kernel. Of scenes with interactions, whose laws they do not know, the kernel at fine steps is the truth.
+//! References in plain std Rust: an independent implementation of the same equations, without force code of the kernel.
+//! For scenes with interactions, whose laws they lack, the kernel at fine steps is the reference solution.
 //!
-//! `model's data => mechanism => accelerations`, and from them what runs are held against. The
-//! modules in the order in which they stand on each other:
+//! `model's data => mechanism => accelerations`, and from them the reference solutions of runs. The modules in
+//! dependency order:
 //!
 //! - [`state`], [`signals`]: a mechanism's state and time, in nalgebra's types.
 //! - [`instant`]: bodies, points and wrenches at one instant.
@@ -14,9 +14,9 @@
 //! - [`implicit`], [`generalized_alpha`]: linearly implicit Euler and generalised-α, one sparse solve per step.
 //! - [`spectrum`]: all eigenfrequencies of a pose.
 //! - [`equations`], [`truth`]: the mechanism as a first-order system; DOP853 with a second opinion.
-//! - [`perturbed`](mod@perturbed), [`fine`]: a state nearby; the truth of any scene.
-//! - [`metric`], [`trajectory`]: how far a run is from the truth.
-//! - [`window`]: how long a trajectory can be told from a perturbed one.
+//! - [`perturbed`](mod@perturbed), [`fine`]: a state nearby; the reference solution of any scene.
+//! - [`metric`], [`trajectory`]: distance of a run from the reference solution.
+//! - [`window`]: how long a trajectory stays close to a perturbed one.
 
 mod blocks;
 pub mod driven;

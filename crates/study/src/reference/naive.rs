@@ -6,7 +6,7 @@
 use crate::reference::mechanism::{Acceleration, Mechanism};
 use crate::reference::state::State;
 
-/// A mechanism on its way through time.
+/// A mechanism in time integration.
 pub struct Naive<'m> {
     mechanism: &'m Mechanism,
     /// The present state.

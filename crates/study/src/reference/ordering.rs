@@ -1,8 +1,7 @@
 //! The order in which bodies are eliminated: least degree first.
 //!
-//! `(bodies, pairs) => order`. Each elimination joins the neighbours of the body that goes; the
-//! one with the fewest neighbours goes next, the first of them where several have (Tinney &
-//! Walker 1967). A chain and a loop of mechanisms fill in next to nothing this way.
+//! `(bodies, pairs) => order`. Each elimination connects the neighbours of the eliminated body; the one with the fewest
+//! neighbours is next, the first of several (Tinney & Walker 1967). Chains and loops have almost no fill-in.
 
 use std::collections::BTreeSet;
 

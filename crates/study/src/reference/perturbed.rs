@@ -23,7 +23,7 @@ pub fn perturbed(state: &State) -> State {
     state
 }
 
-/// Moves and turns the bodies of a state of the kernel as [`perturbed`] does.
+/// Translates and rotates the bodies of a state of the kernel as [`perturbed`] does.
 pub fn perturbation(state: &mut KernelState<SceneModel<F64>>) {
     let count = state.bodies.len();
     for (row, body) in state.bodies.iter_mut().enumerate() {
@@ -35,7 +35,7 @@ pub fn perturbation(state: &mut KernelState<SceneModel<F64>>) {
     }
 }
 
-/// \[m\] the shift and \[rad\] the turn of a body of so many.
+/// \[m\] the translation and \[rad\] the rotation of a body out of the given number.
 fn direction(row: usize, bodies: usize) -> [Vector3<f64>; 2] {
     let count = 2 * bodies;
     [2 * row, 2 * row + 1].map(|i| {

@@ -1,8 +1,7 @@
-//! Time: what acts when, and what tables say then.
+//! Time: active loads and values of tables.
 //!
-//! `(time) => loads on or off, signals of the inputs`. Loads and tables jump at known times; an
-//! integrator goes from one to the next, and between them looks at one window only, whichever
-//! side its last stage lies on.
+//! `(time) => loads on or off, signals of the inputs`. Loads and tables jump at known times; an integrator goes from
+//! one to the next, and between them uses one window only, on whichever side its last stage lies.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +9,7 @@ use dbd_kernel::F64;
 use dbd_kernel::elements::input::{Input, Knot};
 use dbd_kernel::elements::source::{Source, SourceLaw};
 
-/// What counts as reached, relative: as forgiving as the kernel's windows.
+/// Relative tolerance of a reached time, as for the kernel's windows.
 const REACHED: f64 = 1e-9;
 
 /// A time, and the time that decides which windows are open.
@@ -41,7 +40,7 @@ impl Clock {
     }
 }
 
-/// What an input does at a time.
+/// State of an input at a time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Signal {
     /// N, N·m, or m for an anchor.
@@ -50,7 +49,7 @@ pub struct Signal {
     pub rate: f64,
 }
 
-/// What an input says over time.
+/// Value of an input over time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Table {
     /// A constant.

@@ -1,10 +1,10 @@
 //! All eigenfrequencies of a pose, from the reference's forces.
 //!
 //! `(mechanism, state) => ω \[rad/s\], ascending`. The tangent stiffness K comes from central
-//! differences of the accelerations of the resting pose, shifts along world axes and turns about
-//! body axes, scaled to `M^½·A·M^-½ = −M^-½·K·M^-½`. Out of equilibrium K is not symmetric where an
-//! unbalanced torque acts; its symmetric part is taken, whose eigenvalues no real part exceeds
-//! (Bendixson 1902). For small models: 6 per body, a dense matrix.
+//! differences of the accelerations of the resting pose, translations along world axes and rotations about body axes,
+//! scaled to `M^½·A·M^-½ = −M^-½·K·M^-½`. Out of equilibrium K is not symmetric where an unbalanced torque acts; its
+//! symmetric part is used, whose eigenvalues bound the real parts (Bendixson 1902). For small models: 6 per body, a
+//! dense matrix.
 
 use nalgebra::{DMatrix, SymmetricEigen, UnitQuaternion, Vector3};
 
@@ -16,8 +16,7 @@ use crate::reference::state::State;
 const PROBE: f64 = 1e-6;
 
 /// The angular frequencies \[rad/s\] of the pose of a state at a time \[s\], ascending, 6 per body.
-/// What does not vibrate is 0; an unstable pose has negative ones: their magnitudes are the rates
-/// at which it is left.
+/// Rigid motions have 0; an unstable pose has negative ones, whose magnitudes are the growth rates.
 #[must_use]
 pub fn eigenfrequencies(mechanism: &Mechanism, state: &State, time: f64) -> Vec<f64> {
     let matrix = scaled_stiffness(mechanism, state, time);

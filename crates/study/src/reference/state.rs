@@ -1,7 +1,7 @@
 //! The state of a mechanism in nalgebra's types.
 //!
-//! `kernel state => state`. A torsion spring's winding is a number near its twist: here the last
-//! known twist itself, in the kernel half windings.
+//! `kernel state => state`. A torsion spring's revolution is stored as a number near its angle: here the last known
+//! angle itself, in the kernel half revolutions.
 
 use std::f64::consts::TAU;
 
@@ -26,7 +26,7 @@ pub struct BodyState {
 pub struct State {
     /// One per body.
     pub bodies: Vec<BodyState>,
-    /// \[rad\] one per torsion spring, within half a turn of its twist.
+    /// \[rad\] one per torsion spring, within half a revolution of its angle.
     pub twists: Vec<f64>,
 }
 
@@ -43,7 +43,7 @@ impl BodyState {
 }
 
 impl State {
-    /// A state of the kernel at a step's boundary, where turn counts are settled.
+    /// A state of the kernel at a step's boundary, where revolution counts are valid.
     pub fn of<M: ModelOwner<Precision = F64>>(state: &KernelState<M>) -> Self {
         Self {
             bodies: state.bodies.as_ref().iter().map(BodyState::of).collect(),

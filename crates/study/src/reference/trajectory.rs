@@ -1,6 +1,6 @@
-//! Trajectories: the truth at sample times with its uncertainty, and the error of a run.
+//! Trajectories: the reference solution at sample times with its uncertainty, and the error of a run.
 //!
-//! `(scene, window, samples) => times, states, uncertainty`; `(truth, run) => error \[m\]`. An error
+//! `(scene, window, samples) => times, states, uncertainty`; `(reference, run) => error \[m\]`. An error
 //! is the root mean square over bodies of the distance between their centres of mass, per sample;
 //! of a whole run the root mean square over the samples.
 
@@ -17,14 +17,14 @@ use crate::reference::truth::{NoTruth, Opinion, integrate};
 /// The positions of all bodies \[m\] at one time.
 pub type Positions = Vec<Vector3<f64>>;
 
-/// The truth of a scene.
+/// The reference solution of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
     /// \[s\] equally spaced, the first 0, the last the window's end.
     pub times: Vec<f64>,
     /// The states at the times.
     pub states: Vec<State>,
-    /// \[m\] at each time how far a second opinion is away.
+    /// \[m\] distance of the second opinion at each time.
     pub uncertainty: Vec<f64>,
 }
 
@@ -35,10 +35,10 @@ pub fn sample_times(window: f64, samples: u32) -> Vec<f64> {
 }
 
 impl Trajectory {
-    /// The truth of a scene over `window` \[s\] in `samples` equal intervals.
+    /// The reference solution of a scene over `window` \[s\] in `samples` equal intervals.
     ///
     /// # Errors
-    /// Where an integrator gives up.
+    /// If an integrator fails.
     pub fn truth(scene: &Scene, window: f64, samples: u32) -> Result<Self, NoTruth> {
         let times = sample_times(window, samples);
         let [states, second] = [Opinion::Dop853, Opinion::Verner98]
@@ -46,10 +46,10 @@ impl Trajectory {
         Ok(Self::of(times, states?, &second?))
     }
 
-    /// The truth of a mechanism at ascending times \[s\] from a state at t = 0.
+    /// The reference solution of a mechanism at ascending times \[s\] from a state at t = 0.
     ///
     /// # Errors
-    /// Where an integrator gives up.
+    /// If an integrator fails.
     pub fn truth_of(
         mechanism: &Mechanism,
         start: &State,
@@ -72,7 +72,7 @@ impl Trajectory {
         self.uncertainty.iter().fold(0.0, |most, u| most.max(*u))
     }
 
-    /// \[m\] the error of a run at each sample, as far as the run came.
+    /// \[m\] the error of a run at each of its samples.
     #[must_use]
     pub fn errors(&self, run: &[Positions]) -> Vec<f64> {
         let pairs = self.states.iter().zip(run);

@@ -1,9 +1,8 @@
-//! The truth: two integrators of high order at tight tolerances.
+//! The reference solution: two integrators of high order at tight tolerances.
 //!
-//! `(mechanism, state, times) => states`. DOP853 (Hairer, Nørsett & Wanner 1993) is the truth, the
-//! pair 9(8) of Verner (2010) the second opinion. Both end a step at every
-//! sample and at every jump of a load or table, so that no sample is interpolated and no step
-//! straddles a jump.
+//! `(mechanism, state, times) => states`. DOP853 (Hairer, Nørsett & Wanner 1993) is the reference solution, the pair
+//! 9(8) of Verner (2010) the second opinion. Both end a step at every sample and at every jump of a load or table, so
+//! that no sample is interpolated and no step straddles a jump.
 
 use differential_equations::control::ControlFlag;
 use differential_equations::error::Error;
@@ -28,8 +27,9 @@ pub const TOLERANCE: f64 = 1e-12;
 /// at 1e-12 the rounding of light bodies' accelerations would drive its step.
 pub const SECOND_TOLERANCE: f64 = 1e-11;
 
-/// Steps of an integrator, at most: so many, and so many per radian of the highest frequency at the start. A mechanism
-/// that runs into a pose in which a direction is undefined has no truth beyond it, however short the steps.
+/// Maximum steps of an integrator: a constant, plus a number per radian of the highest frequency at the start. A
+/// mechanism that reaches a pose with an undefined direction has no reference solution beyond it, however short the
+/// steps.
 const MOST_STEPS: [f64; 2] = [2e5, 100.0];
 
 /// Which integrator.
@@ -41,21 +41,24 @@ pub enum Opinion {
     Verner98,
 }
 
-/// Why there is no truth.
+/// Missing reference solution.
 #[derive(Clone, Debug, PartialEq, Error, Diagnostic)]
-#[error("no truth beyond {time} s: {reason}")]
-#[diagnostic(help("a shorter window, before a twist is undefined or a spring's points meet"))]
+#[error("no reference solution beyond {time} s: {reason}")]
+#[diagnostic(help(
+    "use a shorter window that ends before a torsion angle is undefined or a spring's \
+                   points coincide"
+))]
 pub struct NoTruth {
     /// \[s\] where the integrator stopped, or the start of the piece.
     pub time: f64,
-    /// What it says.
+    /// The integrator's message.
     pub reason: String,
 }
 
 /// The states at ascending `times` \[s\] from `start` at t = 0.
 ///
 /// # Errors
-/// Where the integrator gives up.
+/// If the integrator fails.
 pub fn integrate(
     opinion: Opinion,
     mechanism: &Mechanism,
@@ -80,7 +83,7 @@ pub fn integrate(
     Ok(states)
 }
 
-/// How far an integration has come.
+/// Progress of an integration.
 struct Piece {
     y: Vec<f64>,
     time: f64,
@@ -132,10 +135,10 @@ impl Piece {
         match solution {
             Ok(mut solution) => self.finite(solution.y.pop()).map(|y| (solution.t, y)),
             Err(Error::StepSize { t, .. } | Error::Stiffness { t, .. }) => {
-                Err(NoTruth { time: t, reason: "no step is short enough".into() })
+                Err(NoTruth { time: t, reason: "no step size is small enough".into() })
             }
             Err(Error::MaxSteps { t, .. }) => {
-                Err(NoTruth { time: t, reason: "steps become ever shorter".into() })
+                Err(NoTruth { time: t, reason: "the step size tends to zero".into() })
             }
             Err(_) => Err(NoTruth { time: self.time, reason: "no solution".into() }),
         }
@@ -147,7 +150,7 @@ impl Piece {
     }
 }
 
-/// Keeps the times of all steps and the values at the last alone: a stiff scene takes millions.
+/// Stores the times of all steps but only the last values: a stiff scene needs millions of steps.
 struct Latest;
 
 impl Solout<f64, Vec<f64>> for Latest {

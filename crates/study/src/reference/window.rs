@@ -1,11 +1,10 @@
-//! The window before chaos takes over: how long two truths from nearly one state stay near.
+//! The window before chaos: how long two reference solutions from nearly equal states stay close.
 //!
-//! `(scene, longest, samples, factor) => window, growth`. The truth is run a second time from a
-//! state [perturbed](crate::reference::perturbed) by 1e-9 m and 1e-9 rad per body. The growth is the
-//! distance of the two at a sample over that at t = 0, each the root mean square over bodies. The
-//! window ends with the last sample before the growth first exceeds the factor: beyond it an
-//! error of the state, of a step or of rounding says more of the mechanism than of the scheme. Where an integrator gives
-//! up, it ends with the last sample before that.
+//! `(scene, longest, samples, factor) => window, growth`. The reference solution is computed a second time from a state
+//! [perturbed](crate::reference::perturbed) by 1e-9 m and 1e-9 rad per body. The growth is the distance of the two at a
+//! sample over that at t = 0, each the root mean square over bodies. The window ends with the last sample before the
+//! growth first exceeds the factor: beyond it errors depend more on the mechanism than on the scheme. If an integrator
+//! fails, it ends with the last sample before that.
 
 use dbd_scene::Scene;
 
@@ -15,8 +14,8 @@ use crate::reference::state::State;
 use crate::reference::trajectory::sample_times;
 use crate::reference::truth::{NoTruth, Opinion};
 
-/// The growth up to which a trajectory is worth comparing, where nothing else is said: an error
-/// made early in the window weighs a thousand times one made late.
+/// Default growth up to which a trajectory is compared: an error at the start of the window weighs a thousand times one
+/// at its end.
 pub const GROWTH: f64 = 1e3;
 
 /// A window and what ended it.
@@ -30,10 +29,10 @@ pub struct Window {
     pub growth: Vec<f64>,
 }
 
-/// The window of a scene, `longest` \[s\] at most, looked at in `samples` equal intervals.
+/// The window of a scene, `longest` \[s\] at most, sampled in `samples` equal intervals.
 ///
 /// # Errors
-/// Where an integrator gives up within the first interval.
+/// If an integrator fails within the first interval.
 pub fn before_chaos(
     scene: &Scene,
     longest: f64,

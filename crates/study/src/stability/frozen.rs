@@ -1,8 +1,8 @@
-//! A pose without forces: what vibrates about it does so by stiffness alone.
+//! A pose without forces, about which only stiffness causes vibration.
 //!
 //! `(model, state) => model`, with the state's pose as its initial one, at rest; without gravity,
 //! loads, inputs, preloads and clearances; every spring has its present length as free length,
-//! every torsion spring its present twist as 0. Dampers stay.
+//! every torsion spring its present angle as 0. Dampers are kept.
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::index::{BodyIndex, ClearanceIndex};
@@ -80,8 +80,7 @@ impl Axes<'_> {
     }
 }
 
-/// Gives element `i` of a group its present length; where it has no length, its second point is
-/// moved to where it is pulled.
+/// Gives element `i` of a group its present length; without a length, its second point is moved to the rest position.
 fn relax(model: &mut SceneModel<F64>, row: usize, i: usize) {
     let group = &model.groups[row];
     let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));

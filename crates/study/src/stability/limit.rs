@@ -2,13 +2,13 @@
 //!
 //! `(model, pose, method) => stable ranges of z = ω·h`, ω the highest eigenfrequency. The pose is
 //! frozen: no velocities, gravity, loads, inputs or preloads, every spring at its present length,
-//! clearances taken up; dampers stay. About it the mechanism vibrates with an amplitude of 1e-7
+//! clearances closed; dampers are kept. About it the mechanism vibrates with an amplitude of 1e-7
 //! of its shortest spring, in all its elastic modes at once, in space, for 100 periods of the
 //! fastest, 600 steps at least and 2500 at most. A step is unstable where the largest energy of the
-//! last third exceeds twice that of the first, as a mode does that gains 1e-3 of its amplitude per
-//! step, or any a thousand times the initial. z is scanned from small to large, for stability need
-//! not end once; edges are refined by bisection. In double precision whatever precision is meant:
-//! rounding does not move the limit, but of a soft mode it makes energy that looks like growth.
+//! last third exceeds twice that of the first, as for a mode that gains 1e-3 of its amplitude per step, or any energy a
+//! thousand times the initial. z is scanned from small to large, because there may be several stable ranges; edges are
+//! refined by bisection. Always in double precision: rounding does not move the limit, but in a soft mode its energy
+//! looks like growth.
 
 use std::f64::consts::TAU;
 
@@ -32,21 +32,20 @@ pub const LARGEST: f64 = 6.5;
 const PERIODS: f64 = 100.0;
 const STEPS: [f64; 2] = [600.0, 2500.0];
 
-/// The energy, over the initial, at which a trial ends: at 1.999 of 2 an oscillation of leapfrog
-/// comes as far.
+/// The energy, over the initial, at which a trial ends: at 1.999 of 2 an oscillation of leapfrog reaches it.
 const GROWN: f64 = 1e3;
 
-/// The share of the largest stable step that an advised step keeps clear of: frequencies change along
-/// a motion, and the pose of t = 0 alone is looked at.
+/// Margin of an advised step as a fraction of the largest stable one: frequencies change along a motion, and only the
+/// pose at t = 0 is analysed.
 pub const MARGIN: f64 = 0.15;
 
 /// The vibration's amplitude over the shortest spring.
 const AMPLITUDE: f64 = 1e-7;
 
-/// The share of the initial energy that rounding makes of itself.
+/// The fraction of the initial energy caused by rounding.
 const NOISE: f64 = 1e-9;
 
-/// Steps from one look at the energy to the next, in turn: no oscillation keeps step with all.
+/// Steps between energy checks, in rotation, to avoid aliasing with an oscillation.
 const LOOKS: [u64; 4] = [7, 3, 11, 2];
 
 /// Halvings of a bracket: edges are known to 2e-4.
@@ -76,11 +75,11 @@ impl Stability {
     }
 }
 
-/// The stability of a method about a pose of a model; `None` where nothing vibrates.
+/// The stability of a method about a pose of a model; `None` if nothing vibrates.
 ///
 /// # Errors
-/// [`MethodError::Restless`] in a precision in which no pose is at rest, [`MethodError::Comparison`]
-/// where this build does not hold the method.
+/// [`MethodError::Restless`] in a precision in which no pose is in equilibrium, [`MethodError::Comparison`] if this
+/// build does not include the method.
 pub fn stability(
     model: &SceneModel<F64>,
     state: &State<SceneModel<F64>>,
@@ -96,12 +95,12 @@ pub fn stability(
 pub struct Vibration {
     /// \[rad/s\] its highest eigenfrequency.
     pub frequency: f64,
-    /// The model at rest but for the velocities that start it.
+    /// The model at rest except for the initial velocities.
     kicked: SceneModel<F64>,
 }
 
 impl Vibration {
-    /// The vibration about a pose of a model; `None` where nothing vibrates.
+    /// The vibration about a pose of a model; `None` if nothing vibrates.
     #[must_use]
     pub fn about(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> Option<Self> {
         let frozen = frozen(model, state);
@@ -124,8 +123,7 @@ impl Vibration {
         Ok(self.found(ranges))
     }
 
-    /// Likewise of the first range alone, which is where a method's largest stable step lies: no
-    /// time is spent on what lies beyond it.
+    /// The first range only, which contains a method's largest stable step.
     ///
     /// # Errors
     /// As [`stability`].
@@ -213,8 +211,7 @@ impl<S: Fn(f64) -> bool> Iterator for Scan<S> {
 }
 
 /// The velocities that start the vibration, as multiples of the shortest spring's length: those
-/// of the accelerations of a perturbed pose, so that every mode has its share and free motions,
-/// which no spring resists, have none.
+/// of the accelerations of a perturbed pose, so that every elastic mode is excited and free motions are not.
 fn kick(mechanism: &Mechanism, rest: &Reference, frequency: f64) -> Option<Vec<[Vec3<f64>; 2]>> {
     let accelerations = mechanism.accelerations(&perturbed(rest), 0.0);
     let largest =
@@ -236,7 +233,7 @@ fn kicked(mut model: SceneModel<F64>, kick: &[[Vec3<f64>; 2]], amplitude: f64) -
     model
 }
 
-/// Whether a run of so many steps of the size `step` \[s\] keeps its energy in bounds.
+/// Whether a run of the given number of steps of `step` \[s\] keeps its energy in bounds.
 fn is_bounded(model: &SceneModel<F64>, method: &Method, step: f64, steps: u64) -> bool {
     let Ok(mut plant) = plant_of_model(model, method, step) else { return false };
     let start = plant.energy().total();

@@ -1,6 +1,6 @@
-//! What varies, and over which values.
+//! Varied quantities and their values.
 //!
-//! `(path, values) => target, values, what of them is tried first`. A path leads to a value of the scene, as
+//! `(path, values) => target, values, values checked first`. A path leads to a value of the scene, as
 //! that of `--set` does, or is one of the method's five names.
 
 use std::ops::Range;
@@ -12,7 +12,7 @@ use dbd_scene::nearest;
 
 use crate::sweep::value::{Value, dimension};
 
-/// What an axis changes.
+/// Target of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Target {
     /// A value of the scene.
@@ -31,7 +31,7 @@ pub enum Target {
     Orientation,
 }
 
-/// What leaves Newton iterations, ρ∞ and damping to the scheme.
+/// Selects the scheme's default of Newton iterations, ρ∞ and damping.
 pub const OWN: &str = "own";
 
 impl Target {
@@ -45,15 +45,14 @@ impl Target {
         ("orientation", Self::Orientation),
     ];
 
-    /// What a path leads to.
+    /// The target of a path.
     #[must_use]
     pub fn of(path: &str) -> Self {
         let found = Self::OF_METHOD.iter().find(|(name, _)| *name == path);
         found.map_or(Self::Scene, |(_, target)| *target)
     }
 
-    /// What a value of a method's choice must be, and the one that was probably meant; `None` where it
-    /// is one.
+    /// Expected values of a method's choice, and the closest one; `None` if the value is valid.
     #[must_use]
     pub fn misfit(self, cell: &str) -> Option<String> {
         let names: Vec<&str> = match self {
@@ -100,7 +99,7 @@ impl<'c> Choices<'c> {
     /// The method.
     ///
     /// # Errors
-    /// Where these do not go together, or this build does not hold them.
+    /// If these are incompatible, or this build does not include them.
     pub fn method(&self) -> Result<Method, MethodError> {
         let of = |wanted| self.0.iter().find(|(target, _)| *target == wanted).map(|found| found.1);
         let scheme = of(Target::Scheme).and_then(SchemeName::of_name).unwrap_or_default();
@@ -127,13 +126,13 @@ impl<'c> Choices<'c> {
 pub struct Axis {
     /// Its path.
     pub path: String,
-    /// Where that stands.
+    /// Its position in the file.
     pub place: Range<usize>,
-    /// What it changes.
+    /// Its target.
     pub target: Target,
     /// Its values; in a sample as many as there are cases.
     pub values: Vec<Value>,
-    /// What is tried before any case runs, with its place.
+    /// Values checked before any case runs, with their positions.
     pub tried: Vec<(Value, Range<usize>)>,
     /// Whether ratios rather than differences are even.
     pub logarithmic: bool,

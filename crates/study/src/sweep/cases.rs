@@ -1,8 +1,7 @@
 //! The cases of a sweep, in their order.
 //!
-//! `(axes, case) => values, changes of the scene, method`. Of a grid the last axis varies fastest, and axes
-//! that go along with each other count as the first of them; a sample has a value of every axis in each
-//! case. Nothing is kept per case.
+//! `(axes, case) => values, changes of the scene, method`. In a grid the last axis varies fastest, and paired axes
+//! count as the first of them; a sample has a value of every axis in each case. Nothing is stored per case.
 
 use dbd_plant::{Method, MethodError};
 
@@ -23,13 +22,13 @@ impl<'s> Cases<'s> {
         Self { spec }
     }
 
-    /// How many there are; never more than [`MOST_CASES`](crate::sweep::spec::MOST_CASES).
+    /// Their number; at most [`MOST_CASES`](crate::sweep::spec::MOST_CASES).
     #[must_use]
     pub fn len(&self) -> usize {
         self.spec.count() as usize
     }
 
-    /// Whether there is none; there always is one.
+    /// Always false: there is at least one.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0

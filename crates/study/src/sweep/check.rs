@@ -1,8 +1,8 @@
-//! Every axis, before any case runs.
+//! Checks of every axis before any case runs.
 //!
-//! `(spec, scene) => base scene | refusal at its place`. Each value of a list is tried, of a range its ends, with
-//! all other axes at their first values; every combination of a method's choices; and the number of cases
-//! was looked at when the file was read. What goes wrong only where two values meet is a row of its case.
+//! `(spec, scene) => base scene | error with position`. Each value of a list and the ends of a range are tried with all
+//! other axes at their first values, as well as every combination of a method's choices; the number of cases was
+//! checked when the file was read. Errors of combinations of values are rows of their cases.
 
 use std::collections::BTreeSet;
 use std::ops::Range as Place;
@@ -18,7 +18,7 @@ use crate::sweep::refusal::Refusal;
 use crate::sweep::spec::Spec;
 use crate::sweep::value::Value;
 
-/// What a sweep's cases are tried with.
+/// Context of the checks.
 pub trait Trial {
     /// The scene with changes.
     ///
@@ -26,23 +26,23 @@ pub trait Trial {
     /// Where it is refused.
     fn scene(&self, changes: &[String]) -> Result<Scene, SceneError>;
 
-    /// Whether the scene can be run by a method: whether a step fits, a precision holds what it is given.
+    /// Checks that a method can run the scene: a step fits, and the precision represents the values.
     ///
     /// # Errors
-    /// What is wrong and what would be right.
+    /// Problem and remedy.
     fn plan(&self, scene: &Scene, method: &Method) -> Result<(), Misfit>;
 }
 
 /// Why a run cannot be planned.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misfit {
-    /// What is wrong.
+    /// Problem.
     pub message: String,
-    /// What would be right.
+    /// Remedy.
     pub help: String,
 }
 
-/// Why a sweep does not begin.
+/// Errors before a sweep.
 #[derive(Debug, Error, Diagnostic)]
 pub enum CheckError {
     /// Something in its file.
@@ -54,7 +54,7 @@ pub enum CheckError {
     Scene(SceneError),
 }
 
-/// A change with its path's place and its value's.
+/// A change with the positions of its path and value.
 struct Made {
     text: String,
     path: Place<usize>,
@@ -105,7 +105,7 @@ pub fn check(spec: &Spec, trial: &dyn Trial) -> Result<Scene, CheckError> {
     Ok(begin)
 }
 
-/// Loads and plans a case; `varied` is the place of the value that is tried.
+/// Loads and plans a case; `varied` is the position of the tried value.
 fn attempt(
     spec: &Spec,
     trial: &dyn Trial,
@@ -126,7 +126,7 @@ fn attempt(
     Ok(scene)
 }
 
-/// A scene's refusal at the place of the change that it is about, else of the value that is tried.
+/// A scene's error at the position of the change concerned, else of the tried value.
 fn placed(
     spec: &Spec,
     made: &[Made],
@@ -146,7 +146,7 @@ fn placed(
         }
         None => varied.cloned().unwrap_or_else(|| spec.scene.place.clone()),
     };
-    // What is said of the scene's own lines says which.
+    // Messages about the scene's own lines name the line.
     let message = match (about, error.line()) {
         (None, Some(line)) => format!("{}:{line}: {}", error.file(), error.message()),
         _ => error.message(),
@@ -200,8 +200,7 @@ fn refused(spec: &Spec, values: &[&Value], error: &MethodError) -> Box<Refusal> 
     let help = match error {
         MethodError::Newton { .. } | MethodError::NoRho { .. } | MethodError::Damping { .. } => {
             format!(
-                "\"{OWN}\" leaves it to the scheme; `paired` lets it go along with `scheme`, one value of \
-             each"
+                "use \"{OWN}\" for the scheme's default, or `paired` to vary it together with `scheme`"
             )
         }
         _ => error.help().map(|help| help.to_string()).unwrap_or_default(),

@@ -1,4 +1,4 @@
-//! What of a trace the table has: columns by name, statistics of each.
+//! Selected columns of a trace, and their statistics.
 //!
 //! `(names with wildcards, columns of the trace) => rows of the trace's columns`.
 
@@ -17,10 +17,10 @@ pub struct Column {
     pub unit: String,
 }
 
-/// The columns that a sweep asks for, in the order of the trace.
+/// The requested columns of a sweep, in the order of the trace.
 ///
 /// # Errors
-/// Where a name is none of the scene's.
+/// If a name is not a column of the scene.
 pub fn columns(spec: &Spec, scene: &Scene) -> Result<Vec<Column>, Box<Refusal>> {
     let all = all(scene);
     let mut wanted = vec![false; all.len()];
@@ -44,7 +44,7 @@ pub fn columns(spec: &Spec, scene: &Scene) -> Result<Vec<Column>, Box<Refusal>> 
             let some: Vec<&str> = all.iter().take(24).map(|column| column.name.as_str()).collect();
             let more = if all.len() > some.len() { " …" } else { "" };
             let meant = meant.unwrap_or_default();
-            let help = format!("{meant}the columns of its trace: {}{more}", some.join(", "));
+            let help = format!("{meant}the columns of its trace are {}{more}", some.join(", "));
             let message = format!("the scene has no column `{}`", shortened(&asked.text));
             return Err(spec.source.refuse(asked.place.clone(), message, help));
         }

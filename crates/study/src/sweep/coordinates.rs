@@ -1,6 +1,6 @@
-//! The values of an axis as places in a drawing.
+//! The values of an axis as positions in a drawing.
 //!
-//! `(axis, table) => names in their order, numbers where all are such, scale`.
+//! `(axis, table) => names in their order, numbers if all are numeric, scale`.
 
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ const DECADES: f64 = 100.0;
 /// Digits of a number in a drawing.
 const DIGITS: usize = 4;
 
-/// An axis as places.
+/// Positions of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Coordinates {
     /// Where the table has its cells.
@@ -64,7 +64,7 @@ impl Coordinates {
             let words = names.clone();
             return Some(Self { place, short, names, words, rows, is_numeric: false, scale });
         };
-        // A plain number of the scene is in the SI unit of what it is.
+        // A plain number of the scene is in the SI unit of its quantity.
         if axis.unit().is_none() && axis.path.contains('.') {
             label = format!("{label} [{SI}]");
         }

@@ -1,7 +1,7 @@
-//! What makes two cases the same: a hash of all that their rows depend on.
+//! Identity of a case: a hash of everything that its row depends on.
 //!
-//! `texts => 128 bits`. FNV-1a 128 (Fowler, Noll & Vo), each text with its length behind it, so that no two
-//! lists of texts are one.
+//! `texts => 128 bits`. FNV-1a 128 (Fowler, Noll & Vo), each text followed by its length, so that different lists of
+//! texts differ.
 
 use std::fmt;
 

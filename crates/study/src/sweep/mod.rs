@@ -1,29 +1,28 @@
 //! Sweeps: one scene, many values, one row per case.
 //!
-//! `SPEC.toml => axes => cases; rows of cases, kept as they finish => table, page`. What runs a case is
-//! not here: it gets changes of the scene's values and a method, and gives a row. The modules in the order
-//! in which they stand on each other:
+//! `SPEC.toml => axes => cases; rows of finished cases => table, page`. Cases are run elsewhere, from changes of the
+//! scene's values and a method to a row. The modules in dependency order:
 //!
-//! - [`refusal`]: why a sweep is refused, with the place in its file.
-//! - `text`: TOML whose values know their place.
-//! - [`value`]: what an axis may hold, as the scene takes it and as the table shows it.
+//! - [`refusal`]: errors of a sweep, with the position in its file.
+//! - `text`: TOML values with positions.
+//! - [`value`]: values of an axis, for the scene and for the table.
 //! - `range`: values from one end to the other.
-//! - [`key`]: what makes two cases the same.
+//! - [`key`]: identity of a case.
 //! - [`random`]: seeded samples and Latin hypercubes.
-//! - [`axis`]: what varies, and over which values.
+//! - [`axis`]: varied quantities and their values.
 //! - `read`: tables of the file as axes.
 //! - [`statistic`]: figures of a column over a run.
 //! - [`spec`]: the whole file.
 //! - [`cases`]: the cases of a sweep, in their order.
-//! - [`check`](mod@check): every axis, before any case runs.
-//! - [`columns`](mod@columns): what of a trace the table has.
-//! - [`shard`]: a share of the cases.
-//! - [`row`]: what a case came to.
+//! - [`check`](mod@check): checks of every axis before any case runs.
+//! - [`columns`](mod@columns): selected columns of a trace.
+//! - [`shard`]: a fraction of the cases.
+//! - [`row`]: result of a case.
 //! - [`store`]: rows of finished cases, kept in a folder.
 //! - [`table`]: rows in the order of the cases, as CSV.
 //! - `parquet`: the same as a Parquet file.
-//! - `coordinates`: values of an axis as places in a drawing.
-//! - [`page`]: what people look at.
+//! - `coordinates`: values of an axis as positions in a drawing.
+//! - [`page`]: page for people.
 //!
 //! # Features
 //!

@@ -1,8 +1,8 @@
-//! `sweep.html`: one page that needs no other file.
+//! `sweep.html`: one self-contained page.
 //!
 //! `(spec, table) => HTML`. Over one axis a curve per figure; over two a map in colours, or a family of curves where
-//! one of them has few values or names; a sample, or a grid of more, as points over each axis. What lies in
-//! the table and not here is said.
+//! one of them has few values or names; a sample, or a grid of more, as points over each axis. The page lists what only
+//! the table contains.
 
 use std::fmt::Write as _;
 
@@ -19,9 +19,9 @@ use crate::sweep::spec::Spec;
 use crate::sweep::statistic::Statistic;
 use crate::sweep::table::Table;
 
-/// What a page is made from.
+/// Data of a page.
 pub struct Page<'p> {
-    /// What the sweep is called.
+    /// Name of the sweep.
     pub name: &'p str,
     /// The scene's name.
     pub scene: &'p str,
@@ -31,15 +31,15 @@ pub struct Page<'p> {
     pub columns: &'p [Column],
     /// Its table.
     pub table: &'p Table,
-    /// What people read of it: names and texts.
+    /// Names and texts for people.
     pub summary: &'p [(&'static str, String)],
-    /// Command lines: the sweep again, and a case alone.
+    /// Command lines: the sweep, and a single case.
     pub commands: &'p [String],
 }
 
 /// Figures of a page at most.
 const MOST_FIGURES: usize = 24;
-/// Values of an axis up to which each has a curve of its own.
+/// Maximum number of values of an axis with separate curves.
 const FAMILY: usize = 6;
 /// Cases that did not come to their end, of which the page has the words.
 const MOST_WORDS: usize = 20;
@@ -133,7 +133,7 @@ fn with_unit(name: &str, unit: &str) -> String {
 /// The drawings.
 fn figures(text: &mut String, page: &Page<'_>) {
     let Page { spec, columns, table, .. } = *page;
-    // When something is largest is drawn where nothing else is asked for.
+    // The time of a maximum is drawn only if nothing else is requested.
     let timeless = |of: &&Statistic| **of != Statistic::TimeOfMax || spec.statistics.len() == 1;
     let drawn: Vec<Statistic> = spec.statistics.iter().filter(timeless).copied().collect();
     let shown = |column: &Column, statistic: Statistic| {
@@ -205,7 +205,7 @@ fn figures(text: &mut String, page: &Page<'_>) {
     }
 }
 
-/// A drawing of any size, and what stands above it.
+/// A drawing of any size, and its title.
 struct Figure<'f> {
     title: String,
     keys: Vec<String>,

@@ -1,6 +1,6 @@
 //! The table as a Parquet file.
 //!
-//! `table => one row group`: case and counts as 64-bit integers, what is a number in every row as doubles, the rest
+//! `table => one row group`: case and counts as 64-bit integers, columns with numbers in every row as doubles, the rest
 //! as text; a cell that is empty is null. Columns are compressed by Snappy.
 
 use std::io::{self, Write};
@@ -18,10 +18,10 @@ use crate::sweep::table::Table;
 
 /// Columns of whole numbers.
 const COUNTS: [&str; 3] = ["case", "steps", "force_evaluations"];
-/// Columns of text, whatever stands in them.
+/// Columns that are always text.
 const TEXTS: [&str; 2] = ["status", "state_hash"];
 
-/// What a column holds.
+/// Type of a column.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Count,
@@ -32,7 +32,7 @@ enum Kind {
 /// Writes a table.
 ///
 /// # Errors
-/// Where the writer cannot take it.
+/// If the writer fails.
 pub fn write(table: &Table, to: impl Write + Send) -> io::Result<()> {
     written(table, to).map_err(io::Error::other)
 }
@@ -63,7 +63,7 @@ fn written(table: &Table, to: impl Write + Send) -> Result<(), ParquetError> {
     Ok(())
 }
 
-/// What a column holds by its name and, an axis, by its cells.
+/// The type of a column by its name and, for an axis, its cells.
 fn kind(table: &Table, column: usize) -> Kind {
     let name = table.header[column].as_str();
     let is_axis = (1..table.axes).contains(&column);
@@ -104,7 +104,7 @@ fn put<T: DataType>(
         values.extend(cell);
     }
     let Some(mut column) = rows.next_column()? else {
-        return Err(ParquetError::General("a column too many".into()));
+        return Err(ParquetError::General("the table has too many columns".into()));
     };
     column.typed::<T>().write_batch(&values, Some(&present), None)?;
     column.close()

@@ -1,10 +1,10 @@
 //! Seeded samples: each axis its own stream, the same on every machine and in every version.
 //!
-//! `(seed, path, count) => shares of the way, 0 to 1`. The generator is xoshiro256++ (Blackman & Vigna, ACM
-//! Trans. Math. Softw. 47, 2021), its state by SplitMix64 from a hash of seed and path: a further axis
-//! changes the values of no other, and a random sample goes on where a shorter one ends. A Latin
-//! hypercube (McKay, Beckman & Conover, Technometrics 21, 1979) puts one value into each of as many equal
-//! parts of an axis as there are cases, parts in random order.
+//! `(seed, path, count) => fractions, 0 to 1`. The generator is xoshiro256++ (Blackman & Vigna, ACM
+//! Trans. Math. Softw. 47, 2021), its state by SplitMix64 from a hash of seed and path: an additional axis does not
+//! change the values of others, and a random sample extends a shorter one. A Latin hypercube (McKay, Beckman & Conover,
+//! Technometrics 21, 1979) puts one value into each of as many equal parts of an axis as there are cases, parts in
+//! random order.
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -20,14 +20,14 @@ pub enum SampleKind {
     LatinHypercube,
 }
 
-/// A sample that is asked for.
+/// A requested sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sample {
     /// How its cases lie.
     pub kind: SampleKind,
     /// How many there are.
     pub count: usize,
-    /// What tells it from another of the kind.
+    /// Its seed.
     pub seed: u64,
 }
 
@@ -44,7 +44,7 @@ fn even(random: &mut Xoshiro256PlusPlus) -> f64 {
     (random.next_u64() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
 }
 
-/// Even over the whole numbers below `end`: what would favour the first is drawn again.
+/// Uniform over the integers below `end`: biased draws are repeated.
 fn below(random: &mut Xoshiro256PlusPlus, end: u64) -> u64 {
     let unfair = u64::MAX - u64::MAX % end;
     loop {
@@ -56,7 +56,7 @@ fn below(random: &mut Xoshiro256PlusPlus, end: u64) -> u64 {
 }
 
 impl Sample {
-    /// The shares of an axis in the order of the cases.
+    /// The fractions of an axis in the order of the cases.
     #[must_use]
     pub fn shares(&self, path: &str) -> Vec<f64> {
         let mut random = stream(self.seed, path);

@@ -1,14 +1,14 @@
 //! Values from one end to the other: linear or logarithmic.
 //!
-//! `(from, to, share) => value`. The ends are exactly those that were given; what lies between is rounded
-//! to twelve significant digits, so that a range from 0 to 1 holds 0.3 and not 0.30000000000000004, and
-//! logarithms are libm's: the same values on every machine.
+//! `(from, to, fraction) => value`. The ends are exact; values between are rounded to twelve significant digits, so
+//! that a range from 0 to 1 contains 0.3 and not 0.30000000000000004, and logarithms are libm's: the same values on
+//! every machine.
 
 use dbd_plant::time::rounded;
 
 use crate::sweep::value::Value;
 
-/// Significant digits of what is computed.
+/// Significant digits of computed values.
 const DIGITS: usize = 12;
 
 /// A range of an axis.
@@ -20,12 +20,12 @@ pub struct Range {
     pub to: f64,
     /// Whether ratios are even rather than differences; both ends are > 0 then.
     pub logarithmic: bool,
-    /// What stands behind the numbers, a unit with its blank; a range of plain numbers has none.
+    /// Suffix of the numbers, a unit with its blank; empty for plain numbers.
     pub unit: Option<String>,
 }
 
 impl Range {
-    /// The value at a share of the way, 0 to 1.
+    /// The value at a fraction, 0 to 1.
     #[must_use]
     pub fn at(&self, share: f64) -> Value {
         let Self { from, to, .. } = *self;
@@ -45,7 +45,7 @@ impl Range {
         }
     }
 
-    /// So many values, the ends among them.
+    /// The given number of values, including the ends.
     #[must_use]
     pub fn values(&self, count: usize) -> Vec<Value> {
         let last = count.saturating_sub(1).max(1) as f64;

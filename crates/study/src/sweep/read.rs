@@ -1,7 +1,7 @@
 //! Tables of the file as axes.
 //!
-//! `[axes] => axes in the order of the file`. A path is one key in quotes, or keys with points between them,
-//! which TOML takes for tables in tables: they are put together again.
+//! `[axes] => axes in the order of the file`. A path is one key in quotes, or keys separated by dots, which TOML reads
+//! as nested tables: they are joined again.
 
 use std::ops::Range as Place;
 
@@ -21,7 +21,7 @@ const RANGE: [&str; 4] = ["from", "to", "count", "scale"];
 const EXPECTED: &str = "a list of values, or a range: { from = 1e3, to = 1e6, count = 10, scale = \
                         \"logarithmic\" }";
 
-/// The values of a table that are one axis each; `most` is the most cases that a sweep may have.
+/// The values of a table that are one axis each; `most` is the maximum number of cases.
 pub(crate) struct Axes<'s> {
     pub(crate) source: &'s Source,
     pub(crate) sample: Option<Sample>,
@@ -29,7 +29,7 @@ pub(crate) struct Axes<'s> {
 }
 
 impl Axes<'_> {
-    /// All axes of a table and of those within it; `above` is the path so far, and where it begins.
+    /// All axes of a table and of those within it; `above` is the path so far, and its position.
     pub(crate) fn read(
         &self,
         table: &DeTable<'_>,
@@ -43,7 +43,7 @@ impl Axes<'_> {
                 Some((above, start)) => {
                     let quoted = key.contains(['.', '[', '=', '"']);
                     let key = if quoted { format!("\"{key}\"") } else { key.to_owned() };
-                    // Keys on one line are one path; below a header of its own a key stands for itself.
+                    // Keys on one line are one path; below a separate header a key is a path itself.
                     let on_one_line =
                         !self.source.written(start..place.start).contains(['\n', ']']);
                     let start = if on_one_line { start } else { place.start };
@@ -77,7 +77,11 @@ impl Axes<'_> {
             DeValue::Array(array) => {
                 if array.is_empty() {
                     let message = format!("{what} has no values");
-                    return Err(self.source.refuse(value.span(), message, "one value or more"));
+                    return Err(self.source.refuse(
+                        value.span(),
+                        message,
+                        "give one value or more",
+                    ));
                 }
                 let entry = |entry| (Value::of(self.source, entry), entry.span());
                 let listed: Vec<(Value, Place<usize>)> = array.iter().map(entry).collect();
@@ -135,19 +139,20 @@ impl Axes<'_> {
         };
         let place_of = |key: &str| table.get(key).map_or(span.clone(), Spanned::span);
         if from.1 != to.1 {
-            let help = "both ends are plain numbers, or both have the same unit";
-            let message = format!("the ends of {what} differ in their unit");
+            let help = "give both ends as plain numbers, or both with the same unit";
+            let message = format!("the ends of {what} have different units");
             return Err(source.refuse(place_of("to"), message, help));
         }
         if from.0 == to.0 {
-            let help = "a range has two ends; a single value stands in a list";
-            let message = format!("{what} ends where it begins");
+            let help = "give two different ends, or a single value in a list";
+            let message = format!("both ends of {what} are equal");
             return Err(source.refuse(place_of("to"), message, help));
         }
         for (key, number) in [("from", from.0), ("to", to.0)] {
             if logarithmic && number < f64::MIN_POSITIVE {
-                let message = format!("`{key}` of {what} is {number}, and its scale logarithmic");
-                let help = "both ends of a logarithmic range are > 0";
+                let message =
+                    format!("`{key}` of {what} is {number}, but its scale is logarithmic");
+                let help = "give both ends of a logarithmic range > 0";
                 return Err(source.refuse(place_of(key), message, help));
             }
         }
@@ -158,8 +163,8 @@ impl Axes<'_> {
                 sample.shares(&path).into_iter().map(|share| range.at(share)).collect()
             }
             (Some(_), Some(count)) => {
-                let message = format!("{what} has a `count` of its own");
-                let help = "`count` of `sample` says how many cases there are";
+                let message = format!("{what} has its own `count`");
+                let help = "remove it: `count` of `sample` sets the number of cases";
                 return Err(source.refuse(count.span(), message, help));
             }
             (None, None) => return Err(missing("count")),
@@ -168,7 +173,7 @@ impl Axes<'_> {
                 let number = whole(source, count, "`count`", expected)?;
                 if number < 2 {
                     let message = format!("`count` of {what} is {number}");
-                    let help = "a range has two values or more; a single value stands in a list";
+                    let help = "give a count of two or more, or a single value in a list";
                     return Err(source.refuse(count.span(), message, help));
                 }
                 if number > self.most {
@@ -177,7 +182,7 @@ impl Axes<'_> {
                 range.values(number as usize)
             }
         };
-        // What holds at both ends holds between them; but not whether steps fit.
+        // A check at both ends is valid between them, except whether steps fit.
         let tried = match Axis::is_time(&path) {
             true => values.iter().map(|value| (value.clone(), span.clone())).collect(),
             false => vec![(range.at(0.0), place_of("from")), (range.at(1.0), place_of("to"))],
@@ -186,16 +191,16 @@ impl Axes<'_> {
     }
 }
 
-/// The refusal of more cases than a sweep may have.
+/// The error of too many cases.
 pub(crate) fn too_many(
     source: &Source,
     place: Place<usize>,
     cases: u128,
     most: u64,
 ) -> Box<Refusal> {
-    let help = "fewer values, or a sample of them: sample = { kind = \"latin-hypercube\", count = \
+    let help = "use fewer values, or a sample of them: sample = { kind = \"latin-hypercube\", count = \
                 1000, seed = 1 }";
-    source.refuse(place, format!("{cases} cases are more than {most}"), help)
+    source.refuse(place, format!("{cases} cases exceed the maximum of {most}"), help)
 }
 
 /// An end of a range: a number, and the unit where it has one.

@@ -1,4 +1,4 @@
-//! Why a sweep is refused: file, line, column, what is wrong, what would be right.
+//! Errors of a sweep's file: file, line, column, problem, remedy.
 
 use std::io;
 use std::ops::Range;
@@ -7,26 +7,26 @@ use std::sync::Arc;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use thiserror::Error;
 
-/// A sweep's file that cannot be read, or that is refused.
+/// A sweep's file that cannot be read, or that is invalid.
 #[derive(Debug, Error, Diagnostic)]
 pub enum SpecError {
     /// The file cannot be read.
-    // The reason is part of the message and therefore not a source, which would say it twice.
+    // The reason is part of the message; a source would repeat it.
     #[error("cannot read {file}: {reason}")]
-    #[diagnostic(help("a sweep is a readable TOML file in UTF-8"))]
+    #[diagnostic(help("give a readable TOML file in UTF-8"))]
     Unreadable {
         /// Its name.
         file: String,
         /// Why.
         reason: io::Error,
     },
-    /// It is refused.
+    /// It is invalid.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Refused(#[from] Box<Refusal>),
 }
 
-/// What is wrong with a sweep's file, and where.
+/// Problem of a sweep's file, and its position.
 #[derive(Debug, Error, Diagnostic)]
 #[error("{message}")]
 #[diagnostic(help("{help}"))]
@@ -42,14 +42,14 @@ pub struct Refusal {
 /// A sweep's file: its name and its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// What messages call it.
+    /// Its name in messages.
     pub file: String,
     /// Its text.
     pub text: Arc<str>,
 }
 
 impl Source {
-    /// Refuses the bytes `span`.
+    /// The error at the bytes `span`.
     #[must_use]
     pub fn refuse(
         &self,
@@ -65,7 +65,7 @@ impl Source {
         })
     }
 
-    /// The text of a place.
+    /// The text at a position.
     #[must_use]
     pub fn written(&self, span: Range<usize>) -> &str {
         self.text.get(span).unwrap_or_default()

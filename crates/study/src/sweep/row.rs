@@ -1,7 +1,7 @@
-//! What a case came to.
+//! Result of a case.
 //!
 //! `figures => cells`, each number the shortest text that reads back to its bits; a cell is empty where there is
-//! no number. No time on the clock is among them: a case has the same row wherever and whenever it ran.
+//! no number. It contains no measured times: the row of a case does not depend on the machine and time of its run.
 
 use crate::sweep::statistic::Statistic;
 
@@ -17,10 +17,10 @@ pub const RESULTS: [&str; 8] = [
     "max_joint_extension",
 ];
 
-/// What a case came to.
+/// Result of a case.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {
-    /// `ok`, or what failed.
+    /// `ok`, or the failure.
     pub status: String,
     /// The hash of the last sample's state.
     pub state_hash: Option<String>,
@@ -40,17 +40,17 @@ pub struct Row {
     pub figures: Vec<[Option<f64>; Statistic::ALL.len()]>,
 }
 
-/// How many cells a row has, with so many columns.
+/// Number of cells of a row with the given columns.
 #[must_use]
 pub fn length(columns: usize) -> usize {
     RESULTS.len() + columns * Statistic::ALL.len()
 }
 
-/// What the status of a case is that came to its end.
+/// Status of a completed case.
 pub const OK: &str = "ok";
 
 impl Row {
-    /// The row of a case that could not be run, for so many columns.
+    /// The row of a case that could not be run, with the given columns.
     #[must_use]
     pub fn refused(status: String, columns: usize) -> Self {
         Self { status, figures: vec![[None; Statistic::ALL.len()]; columns], ..Self::default() }
@@ -77,7 +77,7 @@ impl Row {
     }
 }
 
-/// A number as a cell; what is not finite is none.
+/// A number as a cell; empty if not finite.
 fn number(number: Option<f64>) -> String {
     number.filter(|n| n.is_finite()).map(|n| format!("{n:?}")).unwrap_or_default()
 }

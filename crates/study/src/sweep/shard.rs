@@ -1,23 +1,23 @@
-//! A share of the cases: `3/8` is the third of eight.
+//! A shard of the cases: `3/8` is the third of eight.
 //!
-//! `(case, share) => whether it is of it`. Cases are dealt out in turn, so that shares are as long as each
-//! other where cases grow along an axis.
+//! `(case, shard) => whether it contains the case`. Cases are distributed in rotation, so that shards take equally long
+//! if cases grow along an axis.
 
 use std::fmt;
 use std::str::FromStr;
 
 use thiserror::Error;
 
-/// A share.
+/// A shard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: usize,
     of: usize,
 }
 
-/// Why a text is no share.
+/// Invalid text of a shard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("a share is I/N, the first 1/N and the last N/N, for example 3/8")]
+#[error("expected I/N, from 1/N to N/N, for example 3/8")]
 pub struct ShardError;
 
 impl Shard {

@@ -1,7 +1,7 @@
-//! A sweep's file: which scene, what varies, what of it the table has.
+//! A sweep's file: scene, axes, columns of the table.
 //!
-//! `text => scene, axes in their order, changes, columns, statistics`. Axes stand in the order of the file; of
-//! a grid the last varies fastest. What has one value throughout is an axis of one value.
+//! `text => scene, axes in their order, changes, columns, statistics`. Axes are in the order of the file; in a grid the
+//! last varies fastest. A constant is an axis of one value.
 
 use std::ops::Range as Place;
 use std::path::Path;
@@ -41,25 +41,25 @@ const KEYS: [&str; 15] = [
 ];
 const STATISTICS: &str = "statistics";
 
-/// A text and where it stands.
+/// A text and its position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placed {
     /// The text.
     pub text: String,
-    /// Its place in the file.
+    /// Its position in the file.
     pub place: Place<usize>,
 }
 
-/// What a sweep is asked for.
+/// Request of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spec {
     /// The file.
     pub source: Source,
     /// The scene, as a command line names one.
     pub scene: Placed,
-    /// What varies, in the order of the file.
+    /// The axes, in the order of the file.
     pub axes: Vec<Axis>,
-    /// What is the same for all cases: method, step, duration, interval.
+    /// Constants of all cases: method, step, duration, interval.
     pub fixed: Vec<Axis>,
     /// Changes of the scene that are the same for all cases, each `PATH=VALUE`.
     pub set: Vec<Placed>,
@@ -67,9 +67,9 @@ pub struct Spec {
     pub leaders: Vec<usize>,
     /// The sample, where cases are not a grid.
     pub sample: Option<Sample>,
-    /// Columns of a trace by name, with wildcards; read-outs and energies where there are none.
+    /// Columns of a trace by name, with wildcards; sensors and energies if empty.
     pub columns: Vec<Placed>,
-    /// What the table has of each.
+    /// Statistics of each column.
     pub statistics: Vec<Statistic>,
 }
 
@@ -86,10 +86,10 @@ impl Spec {
         }
     }
 
-    /// Reads a text; `file` is what messages call it.
+    /// Reads a text; `file` is its name in messages.
     ///
     /// # Errors
-    /// Where it is refused.
+    /// If it is invalid.
     pub fn parse(text: &str, file: &str) -> Result<Self, Box<Refusal>> {
         let source = Source { file: file.to_owned(), text: text.into() };
         let table = parse(&source)?;
@@ -98,7 +98,7 @@ impl Spec {
         let Some(scene) = table.get("scene") else {
             let help =
                 "add `scene`: a scene by name, or a path to a .toml file from this file's folder";
-            return Err(source.refuse(whole_file, "a sweep has no `scene`", help));
+            return Err(source.refuse(whole_file, "the sweep has no `scene`", help));
         };
         let expected = "a scene by name, or a path to a .toml file from this file's folder";
         let scene_text = string(&source, scene, "`scene`", expected)?.to_owned();
@@ -107,28 +107,27 @@ impl Spec {
         match table.get("axes") {
             Some(value) => {
                 let DeValue::Table(of_axes) = value.get_ref() else {
-                    let expected = "a table, opened by [axes]: what varies, and over which values";
+                    let expected = "a table [axes] of the varied quantities and their values";
                     return Err(wrong_type(&source, value, "`axes`", expected));
                 };
                 let most = MOST_CASES;
                 Axes { source: &source, sample, most }.read(of_axes, None, &mut axes)?;
             }
             None => {
-                let help =
-                    "add a table [axes] with what varies: \"joint.crank.stiffness\" = [1e5, 1e6]";
-                return Err(source.refuse(whole_file, "a sweep has no `axes`", help));
+                let help = "add a table [axes] of the varied quantities: \"joint.crank.stiffness\" = [1e5, 1e6]";
+                return Err(source.refuse(whole_file, "the sweep has no `axes`", help));
             }
         }
         if axes.is_empty() {
             let place = table.get("axes").map_or(whole_file, Spanned::span);
-            let help = "one axis or more: \"joint.crank.stiffness\" = [1e5, 1e6]";
+            let help = "add one axis or more: \"joint.crank.stiffness\" = [1e5, 1e6]";
             return Err(source.refuse(place, "the table [axes] is empty", help));
         }
         let fixed = read_fixed(&source, &table)?;
         for axis in &axes {
             if fixed.iter().any(|other| other.path == axis.path) {
-                let message = format!("`{}` is an axis and has a value for all cases", axis.path);
-                return Err(source.refuse(axis.place.clone(), message, "leave out one of the two"));
+                let message = format!("`{}` is both an axis and a fixed value", axis.path);
+                return Err(source.refuse(axis.place.clone(), message, "remove one of the two"));
             }
         }
         for axis in axes.iter().chain(&fixed) {
@@ -179,7 +178,7 @@ fn check_choices(source: &Source, axis: &Axis) -> Result<(), Box<Refusal>> {
     Ok(())
 }
 
-/// What has one value for all cases.
+/// Constants of all cases.
 fn read_fixed(source: &Source, table: &DeTable<'_>) -> Result<Vec<Axis>, Box<Refusal>> {
     let mut fixed = Vec::new();
     let method = Target::OF_METHOD.iter().map(|(name, _)| *name);
@@ -187,7 +186,7 @@ fn read_fixed(source: &Source, table: &DeTable<'_>) -> Result<Vec<Axis>, Box<Ref
         let Some((name, value)) = table.get_key_value(key) else { continue };
         if matches!(value.get_ref(), DeValue::Array(_) | DeValue::Table(_)) {
             let what = format!("`{key}`");
-            let expected = "one value here; what varies stands in [axes]";
+            let expected = "one value here; put varied quantities in [axes]";
             return Err(wrong_type(source, value, &what, expected));
         }
         let one = Value::of(source, value);
@@ -228,7 +227,7 @@ fn read_sample(source: &Source, value: &Spanned<DeValue<'_>>) -> Result<Sample, 
     let count = get("count")?;
     let number = whole(source, count, "`count` of `sample`", "a whole number from 1")?;
     if number == 0 {
-        return Err(source.refuse(count.span(), "a sample of no cases", "1 case or more"));
+        return Err(source.refuse(count.span(), "the sample has no cases", "give 1 case or more"));
     }
     if number > MOST_CASES {
         return Err(too_many(source, count.span(), u128::from(number), MOST_CASES));
@@ -265,7 +264,7 @@ fn read_statistics(source: &Source, table: &DeTable<'_>) -> Result<Vec<Statistic
         let Some(found) = Statistic::ALL.iter().find(|known| known.name() == text) else {
             let meant = nearest(&text, names()).map(|meant| format!("did you mean {meant}? "));
             let known = names().collect::<Vec<_>>().join(", ");
-            let help = format!("{}the statistics: {known}", meant.unwrap_or_default());
+            let help = format!("{}the statistics are {known}", meant.unwrap_or_default());
             let message = format!("there is no statistic `{}`", shortened(&text));
             return Err(source.refuse(place, message, help));
         };
@@ -286,12 +285,10 @@ fn read_pairs(
     let mut leaders: Vec<usize> = (0..axes.len()).collect();
     let Some(value) = table.get("paired") else { return Ok(leaders) };
     if is_sample {
-        let help =
-            "in a sample every axis has a value of its own in each case; leave out one of the two";
-        return Err(source.refuse(value.span(), "`paired` goes with a grid, not a sample", help));
+        let help = "remove one of the two: in a sample every axis varies independently";
+        return Err(source.refuse(value.span(), "`paired` requires a grid, not a sample", help));
     }
-    let expected =
-        "a list of lists of axes that go along with each other: [[\"a.b.c\", \"d.e.f\"]]";
+    let expected = "a list of lists of axes that vary together: [[\"a.b.c\", \"d.e.f\"]]";
     let mut seen: Vec<usize> = Vec::new();
     for group in array(source, value, "`paired`", expected)? {
         let mut leader: Option<usize> = None;
@@ -301,13 +298,17 @@ fn read_pairs(
                 let names = || axes.iter().map(|axis| axis.path.as_str());
                 let meant = nearest(path, names()).map(|meant| format!("did you mean {meant}? "));
                 let known = names().collect::<Vec<_>>().join(", ");
-                let help = format!("{}the axes: {known}", meant.unwrap_or_default());
+                let help = format!("{}the axes are {known}", meant.unwrap_or_default());
                 let message = format!("there is no axis `{}`", shortened(path));
                 return Err(source.refuse(entry.span(), message, help));
             };
             if seen.contains(&row) {
                 let message = format!("the axis `{path}` is paired twice");
-                return Err(source.refuse(entry.span(), message, "each axis goes along once"));
+                return Err(source.refuse(
+                    entry.span(),
+                    message,
+                    "name each axis in one group only",
+                ));
             }
             seen.push(row);
             let first = *leader.get_or_insert(row);
@@ -317,7 +318,7 @@ fn read_pairs(
                     "the axis `{path}` has {short} values, and `{}` {long}",
                     axes[first].path
                 );
-                let help = "axes that go along with each other have as many values";
+                let help = "give axes that vary together the same number of values";
                 return Err(source.refuse(entry.span(), message, help));
             }
             leaders[row] = first;

@@ -18,10 +18,10 @@ pub enum Statistic {
 }
 
 impl Statistic {
-    /// All of them, in the order in which rows hold them.
+    /// All of them, in the order of the rows.
     pub const ALL: [Self; 5] = [Self::Min, Self::Max, Self::Rms, Self::Final, Self::TimeOfMax];
 
-    /// What users call it.
+    /// Its name for users.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

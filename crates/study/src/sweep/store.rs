@@ -1,10 +1,10 @@
-//! Rows of finished cases, kept in a folder: a case is found by its key, whatever sweep it was run for.
+//! Rows of finished cases in a folder: a case is found by its key, independent of its sweep.
 //!
-//! `folder, shard => rows by key; row => one more line`. Each share has a file, `3-of-8.rows`, that one program
-//! at a time adds to: a line per case as it finishes, its check sum before it. A program that is killed, or
-//! meets a full disk, leaves a line without an end at most, which the next one takes off. Where a line's
-//! sum is not its own, the file is set aside as `3-of-8.rows.damaged`, named, and written anew from its
-//! whole lines: the cases of the others run again and nothing else does. All shares' files are read.
+//! `folder, shard => rows by key; row => one more line`. Each shard has a file, `3-of-8.rows`, that one program at a
+//! time appends to: a line per finished case, with its checksum first. A program that is killed, or runs into a full
+//! disk, leaves at most one incomplete line, which the next one removes. If a line's checksum is wrong, the file is
+//! renamed to `3-of-8.rows.damaged`, reported, and rewritten from its valid lines: only the cases of the others run
+//! again. The files of all shards are read.
 
 use std::collections::HashMap;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -17,12 +17,12 @@ use dbd_scene::file;
 use crate::sweep::key::{Digest, Key};
 use crate::sweep::shard::Shard;
 
-/// A file whose lines are not all whole.
+/// A file with damaged lines.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Damage {
     /// The file.
     pub file: PathBuf,
-    /// Where it was put aside; `None` where a program that adds to it has it.
+    /// Its new name; `None` if another program is writing to it.
     pub aside: Option<PathBuf>,
     /// How many lines are damaged.
     pub lines: usize,
@@ -43,7 +43,7 @@ pub struct Store {
 #[derive(Debug)]
 struct Own {
     file: File,
-    /// How long it is with its whole lines.
+    /// Its length up to the last complete line.
     length: u64,
     /// Held while it is open.
     _lock: Option<File>,
@@ -52,10 +52,10 @@ struct Own {
 const END: &str = ".rows";
 
 impl Store {
-    /// What a folder holds; nothing where there is none.
+    /// The rows of a folder; empty if it does not exist.
     ///
     /// # Errors
-    /// Where a file cannot be read, or a damaged one not be set aside.
+    /// If a file cannot be read, or a damaged one cannot be renamed.
     pub fn read(folder: &Path) -> io::Result<Self> {
         let mut store = Self::default();
         for path in files(folder)? {
@@ -69,10 +69,10 @@ impl Store {
         Ok(store)
     }
 
-    /// What a folder that exists holds, and a file of this share to add to.
+    /// The rows of an existing folder, and the file of this shard to append to.
     ///
     /// # Errors
-    /// [`io::ErrorKind::WouldBlock`] where another program adds to this share's; where files cannot be
+    /// [`io::ErrorKind::WouldBlock`] if another program writes to this shard's file; other errors if files cannot be
     /// read or written.
     pub fn open(folder: &Path, shard: Shard) -> io::Result<Self> {
         let path = folder.join(shard.name() + END);
@@ -84,13 +84,13 @@ impl Store {
         }
         let length = if path.exists() { store.take(&path, true)? } else { 0 };
         let file = OpenOptions::new().append(true).create(true).open(&path)?;
-        // What follows the last whole line is of a program that was killed.
+        // Text after the last complete line comes from a killed program.
         file.set_len(length)?;
         store.own = Some(Own { file, length, _lock: lock });
         Ok(store)
     }
 
-    /// Takes in a file's rows; how long it is with its whole lines.
+    /// Reads a file's rows; returns its length up to the last complete line.
     fn take(&mut self, path: &Path, mend: bool) -> io::Result<u64> {
         let bytes = file::read(path, u64::MAX)?;
         let Lines { whole, damaged, length } = Lines::of(&bytes);
@@ -107,7 +107,7 @@ impl Store {
         let mut kept = length;
         let aside = if mend { Some(aside(path)?) } else { None };
         if let Some(aside) = &aside {
-            // A copy first: wherever this ends, one of the two holds the whole lines.
+            // A copy first: if interrupted, one of the two has the valid lines.
             fs::copy(path, aside)?;
             let lines = whole.iter().map(|(key, record)| line(*key, record));
             let text: String = lines.collect();
@@ -140,7 +140,7 @@ impl Store {
     /// Adds a finished case.
     ///
     /// # Errors
-    /// Where it cannot be written; what was there stays whole.
+    /// If it cannot be written; existing rows stay intact.
     pub fn add(&mut self, key: Key, cells: &[String]) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(cells)?;
@@ -151,7 +151,7 @@ impl Store {
             let line = line(key, &record);
             // In one call, so that a line is there or not.
             if let Err(error) = own.file.write_all(line.as_bytes()) {
-                // The next one would take it off, too.
+                // The next program would also remove it.
                 let _ = own.file.set_len(own.length);
                 return Err(error);
             }
@@ -180,8 +180,8 @@ fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// The lock on a file of rows; `None` where the system has no locks. It is on a file beside it, for a
-/// damaged one is replaced.
+/// The lock on a file of rows; `None` if the system has no locks. It is a separate file, because a damaged one is
+/// replaced.
 fn lock(path: &Path) -> io::Result<Option<File>> {
     let file = OpenOptions::new()
         .write(true)
@@ -203,7 +203,7 @@ fn aside(path: &Path) -> io::Result<PathBuf> {
         path.with_file_name(format!("{name}.damaged{number}"))
     };
     let free = (1..10_000).map(candidate).find(|path| !path.exists());
-    free.ok_or_else(|| io::Error::other(format!("{} was damaged too often", path.display())))
+    free.ok_or_else(|| io::Error::other(format!("too many damaged copies of {}", path.display())))
 }
 
 /// The lines of a file.
@@ -235,7 +235,7 @@ fn line(key: Key, record: &str) -> String {
     format!("{} {text}\n", sum(&text))
 }
 
-/// The row on a line, where it is whole.
+/// The row on a line, if it is valid.
 fn read(line: &[u8]) -> Option<(Key, &str)> {
     let text = std::str::from_utf8(line).ok()?;
     let (written, text) = text.split_once(' ')?;
@@ -295,7 +295,7 @@ mod tests {
         assert!(Store::read(&folder.path().join("none")).unwrap().get(Key(1)).is_none());
     }
 
-    /// Wherever the file ends: the rows before are there, and what is added is, too.
+    /// For any truncation, the rows before are kept, and appended rows are readable.
     #[test]
     fn a_line_without_an_end_is_taken_off() {
         let folder = tempfile::tempdir().unwrap();

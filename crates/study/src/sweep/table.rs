@@ -1,8 +1,7 @@
 //! The table: a row per case, in the order of the cases.
 //!
-//! `(spec, columns, rows) => header, CSV`. Number of the case from 1, a cell per axis, in SI where it
-//! has a unit, which the header names, what the case came to,
-//! the asked figures of each column.
+//! `(spec, columns, rows) => header, CSV`. Number of the case from 1, a cell per axis, in SI if it has a unit, which
+//! the header names, the result of the case, the requested statistics of each column.
 
 use std::io::{self, Write};
 
@@ -69,7 +68,7 @@ impl Table {
     /// Writes it as CSV.
     ///
     /// # Errors
-    /// Where the writer cannot take it.
+    /// If the writer fails.
     pub fn csv(&self, to: impl Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(to);
         writer.write_record(&self.header)?;

@@ -1,7 +1,7 @@
-//! TOML whose values know their place: what the file's reader asks of a table.
+//! TOML values with positions, and checks of tables.
 //!
-//! `text => entries in the order of the file`. A table of the parser's is in alphabetical order; the order
-//! of axes means something, so entries are sorted by their places here.
+//! `text => entries in the order of the file`. The parser's tables are in alphabetical order; the order of axes
+//! matters, so entries are sorted by position.
 
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::sweep::refusal::{Refusal, Source};
 
-/// A key with its place, and its value.
+/// A key with its position, and its value.
 pub(crate) struct Entry<'t> {
     pub(crate) key: &'t str,
     pub(crate) place: Range<usize>,
@@ -24,7 +24,7 @@ pub(crate) fn parse(source: &Source) -> Result<DeTable<'_>, Box<Refusal>> {
         Ok(document) => Ok(document.into_inner()),
         Err(error) => {
             let end = source.text.len();
-            let help = "a sweep is written in TOML: https://toml.io";
+            let help = "write the sweep in TOML: https://toml.io";
             Err(source.refuse(error.span().unwrap_or(end..end), error.message(), help))
         }
     }
@@ -41,7 +41,7 @@ pub(crate) fn entries<'t>(table: &'t DeTable<'t>) -> Vec<Entry<'t>> {
     entries
 }
 
-/// Refuses keys other than these; `owner` is what messages call the table.
+/// Rejects keys other than these; `owner` is the table's name in messages.
 pub(crate) fn only(
     source: &Source,
     table: &DeTable<'_>,
@@ -56,7 +56,7 @@ pub(crate) fn only(
     let meant = nearest(key, keys.iter().copied());
     let meant = meant.map(|meant| format!("did you mean `{meant}`? ")).unwrap_or_default();
     let known: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
-    let help = format!("{meant}{owner} may have {}", known.join(", "));
+    let help = format!("{meant}the keys of {owner} are {}", known.join(", "));
     Err(source.refuse(place, format!("{owner} has no key `{}`", shortened(key)), help))
 }
 

@@ -1,8 +1,7 @@
-//! What an axis may hold: one value as the scene takes it and as the table shows it.
+//! A value of an axis, for the scene and for the table.
 //!
-//! `TOML value => text after PATH=, cell`. A number is written in one way whatever it was in the file, so
-//! that 1e3 and 1000.0 are one case; any other value stays as it is written. Where all values of an axis measure
-//! one thing, the table has them as numbers in SI.
+//! `TOML value => text after PATH=, cell`. Numbers have a canonical form, so that 1e3 and 1000.0 are one case; other
+//! values keep their text. If all values of an axis have the same quantity, the table has them as numbers in SI.
 
 use dbd_scene::quantity::{Dimension, evaluate};
 use toml::Spanned;
@@ -27,14 +26,14 @@ impl Value {
         Self { toml: text.clone(), cell: text }
     }
 
-    /// A number with what stands behind it, a unit with its blank: a text to TOML.
+    /// A number with a suffix, a unit with its blank: a text in TOML.
     #[must_use]
     pub fn with_unit(number: f64, unit: &str) -> Self {
         let cell = format!("{number:?}{unit}");
         Self { toml: format!("\"{cell}\""), cell }
     }
 
-    /// What stands in a file.
+    /// The form in a file.
     pub(crate) fn of(source: &Source, value: &Spanned<DeValue<'_>>) -> Self {
         let written = source.written(value.span()).to_owned();
         match value.get_ref() {
@@ -45,7 +44,7 @@ impl Value {
             }
             DeValue::Float(float) => match float.as_str().parse::<f64>() {
                 Ok(number) if number.is_finite() => Self::number(number),
-                // The scene says what is wrong with it.
+                // The scene reports the error.
                 _ => Self { toml: written.clone(), cell: written },
             },
             DeValue::String(text) => Self { cell: text.as_ref().to_owned(), toml: written },
@@ -54,7 +53,7 @@ impl Value {
     }
 }
 
-/// A number and what stands behind it, blanks included: `30 deg`.
+/// A number and its suffix, blanks included: `30 deg`.
 #[must_use]
 pub fn split(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
@@ -67,14 +66,14 @@ pub fn split(text: &str) -> Option<(f64, &str)> {
     Some((text[..end].parse().ok()?, &text[end..]))
 }
 
-/// What values measure that are numbers, some of them with a unit: `None` where one is something else, where two
-/// measure different things, and where none has a unit.
+/// The quantity of numeric values, some with a unit: `None` if one is not numeric, if quantities differ, or if none has
+/// a unit.
 #[must_use]
 pub fn dimension<'v>(values: impl Iterator<Item = &'v Value>) -> Option<Dimension> {
     let mut common = None;
     for value in values {
         let found = evaluate(&value.cell).ok()?.dimension;
-        // A plain number is in the SI unit of what it is given to.
+        // A plain number is in the SI unit of its target.
         if !found.is_none() && *common.get_or_insert(found) != found {
             return None;
         }
@@ -83,7 +82,7 @@ pub fn dimension<'v>(values: impl Iterator<Item = &'v Value>) -> Option<Dimensio
 }
 
 impl Value {
-    /// The number of a quantity, in SI; the text as it is where it is none.
+    /// The number of a quantity, in SI; else the unchanged text.
     #[must_use]
     pub fn in_si(&self) -> String {
         evaluate(&self.cell)

@@ -1,4 +1,4 @@
-//! `PROGRAM [NUMBER…]`: one image for all programs, told apart by their name.
+//! `PROGRAM [NUMBER…]`: one image for all programs, selected by name.
 //!
 //! - `board`: every driver once, against the emulated hardware (target only).
 //! - `hash [STEPS [MILLION_INSTRUCTIONS [fixed]]]`: hashes of all shipped models, or of those in fixed point, see
@@ -110,7 +110,7 @@ mod machine {
     use firmware::say;
 
     pub fn board() -> bool {
-        say!("the drivers are tried on the target: cargo xtask fw board");
+        say!("the drivers are tested on the target: cargo xtask fw board");
         false
     }
 

@@ -17,7 +17,7 @@ use super::timer::Timer;
 use super::uart::Uart;
 use crate::console::exit;
 
-/// The interrupts as their controller knows them.
+/// The interrupts by their numbers in the controller.
 #[derive(Clone, Copy)]
 #[repr(u16)]
 enum Interrupt {
@@ -26,7 +26,7 @@ enum Interrupt {
     Timer1 = TIMER1_INTERRUPT,
 }
 
-// The numbers are the board's, for the life of the program, and no others': what the trait asks.
+// The numbers are those of the board, fixed and unique, as the trait requires.
 #[allow(unsafe_code)]
 // SAFETY: as said.
 unsafe impl InterruptNumber for Interrupt {
@@ -35,7 +35,7 @@ unsafe impl InterruptNumber for Interrupt {
     }
 }
 
-/// What serves the UART, once it is used by interrupts.
+/// The handler of the UART, once it is used by interrupts.
 static SERIAL: Mutex<RefCell<Option<Handler<'static, Mapped>>>> = Mutex::new(RefCell::new(None));
 
 impl Timer<Mapped> {
@@ -105,7 +105,7 @@ unsafe fn DefaultHandler(number: i16) {
             }
         }),
         _ => {
-            defmt::error!("interrupt {=i16} is nobody's", number);
+            defmt::error!("unexpected interrupt {=i16}", number);
             exit(false);
         }
     }

@@ -1,6 +1,6 @@
 //! The MPS2 board with the AN386 image (Cortex-M4F), as QEMU's `mps2-an386` emulates it.
 //!
-//! Every hardware number stands in [`addresses`]. A driver speaks to a [`registers::Registers`],
+//! Every hardware number is defined in [`addresses`]. A driver speaks to a [`registers::Registers`],
 //! so its logic is tested on a host; only `registers::Mapped`, which exists on the target alone,
 //! touches the hardware's memory.
 

@@ -1,4 +1,4 @@
-//! The CMSDK UART by interrupts: bytes wait in two queues for who takes them.
+//! The CMSDK UART by interrupts, with a queue in each direction.
 //!
 //! `received bytes => queue => Receiver; Sender => queue => sent bytes`. After the start the interrupt's handler
 //! alone touches the registers, and it moves bytes only. A byte that finds its queue full is lost and
@@ -24,7 +24,7 @@ pub type Bytes = Queue<u8, QUEUE>;
 /// Received bytes that were lost since the start. The interrupt counts them up, nothing else does.
 pub static LOST: AtomicU32 = AtomicU32::new(0);
 
-/// What the interrupt calls.
+/// The interrupt handler.
 pub struct Handler<'q, R> {
     registers: R,
     received: Producer<'q, u8>,
@@ -67,7 +67,7 @@ pub fn split<'q, R: Registers>(
 impl<R: Registers> Handler<'_, R> {
     /// Moves bytes until neither direction can go on.
     pub fn serve(&mut self) {
-        // Before the look at the state: what happens after it interrupts again.
+        // Before reading the state: later events interrupt again.
         self.registers.write(INTERRUPT_CLEAR, INTERRUPT_TX | INTERRUPT_RX);
         loop {
             let state = self.registers.read(STATE);
@@ -114,7 +114,7 @@ impl Receiver<'_> {
 }
 
 impl Sender<'_> {
-    /// Puts bytes into the queue, all of them or, where there is no room for all, none; whether there was.
+    /// Puts all bytes into the queue, or none if there is no room for all; returns whether there was.
     pub fn send(&mut self, bytes: &[u8]) -> bool {
         let room = self.bytes.capacity() - self.bytes.len();
         if bytes.len() > room {

@@ -36,7 +36,7 @@ impl Board {
         static TAKEN: AtomicBool = AtomicBool::new(false);
         let core = cortex_m::Peripherals::take();
         let (Some(core), false) = (core, TAKEN.swap(true, Ordering::Relaxed)) else {
-            panic!("the board was taken before");
+            panic!("the board has already been taken");
         };
         Self {
             uart: Uart::new(Mapped::at(UART0), BIT_RATE),

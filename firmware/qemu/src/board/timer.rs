@@ -9,7 +9,7 @@ use crate::hash::InstructionCounter;
 
 const NANOSECONDS_PER_TICK: u32 = 1_000_000_000 / CLOCK_HZ;
 
-/// A timer that counts clock ticks for ever.
+/// A free-running timer of clock ticks.
 #[derive(Debug)]
 pub struct Timer<R> {
     registers: R,

@@ -1,10 +1,10 @@
 //! Controller and plant in one image, tick by tick.
 //!
 //! `(loop, pace, ticks) => lines "loop NAME TICK CHAIN", "last NAME …", "pace NAME …"`. In a tick the plant
-//! takes its steps, then the controller sees and drives. The chain is a hash of the plant's state
+//! takes its steps, then the controller measures and acts. The chain is a hash of the plant's state
 //! and of what the controller did after every tick, so two machines that print one chain did the
 //! same all along. The pace is a board's timer or none: it changes no bit, for the plant's time is its
-//! steps. A tick that is late is told, never made up for: the plant falls behind real time.
+//! steps. A late tick is reported but not compensated: the plant falls behind real time.
 
 mod cart_pendulum;
 mod delta;
@@ -28,7 +28,7 @@ use trace::Trace;
 pub enum LoopError {
     /// A part is wired to nothing.
     Wiring(WiringError),
-    /// The plant or a part stands still.
+    /// The plant or a part has failed.
     Plant(Fault),
     /// The controller could not see or drive.
     Control(ControlError),
@@ -56,8 +56,8 @@ pub trait Loop {
     ) -> Result<(), LoopError>;
 }
 
-/// Runs a loop and prints what it did; whether all went well. Overruns are no failure here: who runs
-/// the program knows which rate was meant.
+/// Runs a loop and prints its trace; returns whether it succeeded. Overruns are not an error here: the caller
+/// chooses the rate.
 pub fn run<L: Loop>(the_loop: &L, ticks: u32, pace: &mut impl Pace) -> bool {
     let mut trace = Trace::new(ticks);
     let (mut missed, mut busy, mut busiest) = (0_u32, 0_u64, (0_u32, 0_u32));
@@ -76,7 +76,7 @@ pub fn run<L: Loop>(the_loop: &L, ticks: u32, pace: &mut impl Pace) -> bool {
             busy += u64::from(passed);
             busiest = busiest.max((passed, number));
         }
-        // What came during the last tick.
+        // Ticks that came due during the last tick.
         missed = missed.saturating_add(pace.ahead());
         Ok(())
     });

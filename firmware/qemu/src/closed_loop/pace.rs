@@ -1,4 +1,4 @@
-//! What paces ticks: a board's timer, or nothing.
+//! The pace of ticks: a board's timer, or none.
 
 /// Waits for ticks.
 pub trait Pace {

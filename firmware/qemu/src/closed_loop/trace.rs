@@ -1,4 +1,4 @@
-//! What is kept of a run: a chain of hashes with ten of its links, and the last samples.
+//! The trace of a run: a chain of hashes with ten of its links, and the last samples.
 
 use dbd_kernel::words::{Fnv1a, Word, WordVisitor as _};
 use heapless::HistoryBuf;
@@ -44,7 +44,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// An empty trace of a run of so many ticks.
+    /// An empty trace of a run of the given number of ticks.
     #[must_use]
     pub fn new(ticks: u32) -> Self {
         Self {

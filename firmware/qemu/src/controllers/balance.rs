@@ -16,7 +16,7 @@ use super::servo::{ControlError, Drive, Rate};
 /// \[ns\] from tick to tick.
 pub const TICK: u32 = 1_000_000;
 
-/// What is measured and chosen at the machine.
+/// Parameters, measured and chosen at the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constants {
     /// \[m\] the cart's way per turn of its encoder.
@@ -27,7 +27,7 @@ pub struct Constants {
     pub gains: [f32; 4],
     /// \[N\] the force at full duty and standstill.
     pub full_force: f32,
-    /// \[N·s/m\] what the back-EMF takes from the force.
+    /// \[N·s/m\] reduction of the force by the back-EMF.
     pub back_emf: f32,
     /// \[rad\] beyond it the motor is off.
     pub most_lean: f32,
@@ -45,7 +45,7 @@ impl Constants {
     };
 }
 
-/// What a tick saw and set.
+/// Measurements and outputs of a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen {
     /// \[m\] the cart from where it started.

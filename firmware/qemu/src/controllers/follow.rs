@@ -3,8 +3,8 @@
 //! `(path, arms' counts) => duties and directions, four times per millisecond`. Every 2.5 ms the circle's
 //! next point becomes joint angles by the inverse kinematics of rigid links; between such knots angle,
 //! rate and acceleration come from the cubic through four of them (Catmull & Rom 1974). Each arm's
-//! torque is what springs, friction and inertia take along the path, plus stiffness and damping on
-//! what is off.
+//! torque is that of springs, friction and inertia along the path, plus stiffness and damping on
+//! the error.
 
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::OutputPin;
@@ -21,7 +21,7 @@ const TICKS: u16 = 10;
 /// \[s\] from knot to knot.
 const KNOT: f32 = 2.5e-3;
 
-/// What is measured and chosen at the machine.
+/// Parameters, measured and chosen at the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constants {
     /// Turns of a motor, and of the encoder on its shaft, per turn of its arm.
@@ -32,9 +32,9 @@ pub struct Constants {
     pub spring: f32,
     /// \[N·m·s/rad\] friction of motor and gear.
     pub friction: f32,
-    /// \[kg·m²\] what an arm moves.
+    /// \[kg·m²\] inertia moved by an arm.
     pub inertia: f32,
-    /// \[N·m/rad\] on what is off.
+    /// \[N·m/rad\] stiffness on the error.
     pub stiffness: f32,
     /// \[N·m·s/rad\] on its rate.
     pub damping: f32,
@@ -82,7 +82,7 @@ pub fn path(time: f32) -> [f32; 3] {
 
 /// \[rad\] the angle at which an arm holds the tool at a point, joints and links rigid: by the law of
 /// cosines for an arm of 0.524 m whose elbow lies 1.244 m from the tool's joint; the arm's own joint
-/// stands 0.2 m further out than the tool's.
+/// is 0.2 m further out than the tool's.
 #[must_use]
 pub fn arm([x, y, z]: [f32; 3], [sine, cosine]: [f32; 2]) -> f32 {
     let out = 0.2 - x * cosine - y * sine;
@@ -93,7 +93,7 @@ pub fn arm([x, y, z]: [f32; 3], [sine, cosine]: [f32; 2]) -> f32 {
     libm::atan2f(z, out) + libm::acosf(bend)
 }
 
-/// What a tick saw and set.
+/// Measurements and outputs of a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seen {
     /// \[rad\] the arms.
@@ -223,7 +223,7 @@ mod tests {
             let point = path(0.05 * i as f32);
             for [sine, cosine] in ARMS {
                 let angle = arm(point, [sine, cosine]);
-                // In the arm's plane: elbow and the tool's joint, which stands 0.1 m from its middle.
+                // In the arm's plane: elbow and the tool's joint, which is 0.1 m from its middle.
                 let [out, up] = [0.3 + 0.524 * libm::cosf(angle), -0.524 * libm::sinf(angle)];
                 let [x, y, z] = point;
                 let along = x * cosine + y * sine + 0.1;

@@ -1,4 +1,4 @@
-//! Controllers as one writes them for a board: against embedded-hal, without a word of what is behind.
+//! Controllers as for a real board: against embedded-hal, independent of the simulation.
 //!
 //! `encoders => duties, once per tick`. The same source drives mocks, a plant on a PC, a plant on the chip
 //! and, given real pins, a machine. Arithmetic in single precision, by one operation after the

@@ -1,4 +1,4 @@
-//! What both controllers are made of: a motor with a direction pin, and a rate from counts.
+//! The common parts of the controllers: a motor with a direction pin, and a rate from counts.
 //!
 //! `part of full drive => duty and direction; counts => counts per second`.
 
@@ -7,7 +7,7 @@ use embedded_hal::pwm::{Error as _, ErrorKind as DutyError, SetDutyCycle};
 
 use super::as5047p::ReadError;
 
-/// Why a tick of a controller failed. It drives nothing on then: what was set last stays.
+/// Why a tick of a controller failed. The last outputs then stay set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ControlError {
     /// The encoder of this axis.
@@ -32,7 +32,7 @@ impl<P: SetDutyCycle, D: OutputPin> Drive<P, D> {
         Self { duty, direction, axis }
     }
 
-    /// Sets a part of the full drive, −1 to 1 and no more; what is not a number is 0.
+    /// Sets a part of the full drive, −1 to 1 and no more; NaN counts as 0.
     ///
     /// # Errors
     /// [`ControlError::Duty`], [`ControlError::Direction`].

@@ -27,7 +27,7 @@ impl<L> RemoteCartPendulum<L> {
         Self { line: RefCell::new(line), session, seen: Cell::default() }
     }
 
-    /// The line, and what the controller's end had seen at the last tick.
+    /// The line, and the counts of the controller's end at the last tick.
     pub fn into_parts(self) -> (L, Statistics) {
         (self.line.into_inner(), self.seen.get())
     }
@@ -45,7 +45,7 @@ impl<L: Wait> Loop for RemoteCartPendulum<L> {
         ) -> Result<(), LoopError>,
     ) -> Result<(), LoopError> {
         let wrong = |problem| LoopError::Wiring(WiringError { name: "remote plant", problem });
-        // The plant itself is not needed, but what tells it from others.
+        // Only the plant's identity is needed.
         let own = plants::cart_pendulum(0).ok_or(wrong(Problem::Parameter("the step")))?;
         let mut line = self.line.try_borrow_mut().map_err(|_| wrong(Problem::Busy))?;
         let (inputs, sensors) = (&CART_PENDULUM_INPUTS, &CART_PENDULUM_SENSORS);
@@ -70,7 +70,7 @@ mod tests {
     use crate::hil::plants::End;
     use crate::models::cart_pendulum::CartPendulumF32;
 
-    /// A line to a plant in this program, which loses every so many frames.
+    /// A line to a plant in this program, which periodically loses a frame.
     struct Lossy {
         plant: End<CartPendulumF32, 1, 4>,
         answers: VecDeque<u8>,

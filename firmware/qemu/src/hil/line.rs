@@ -14,7 +14,7 @@ pub const BIT_RATE: u32 = 921_600;
 /// \[ticks\] that the answer to a frame may take.
 const PATIENCE: u32 = 50;
 
-/// The line, and what wakes the core.
+/// The line, and the events that wake the core.
 pub struct BoardLine {
     receiver: Receiver<'static>,
     sender: Sender<'static>,

@@ -6,7 +6,7 @@ use dbd_link::{Device, PlantEnd};
 use super::line::BoardLine;
 use crate::say;
 
-/// Serves a plant, for ever or until `once` a session has ended.
+/// Serves a plant indefinitely, or with `once` until a session has ended.
 pub fn serve<D: Device, const N: usize>(
     scene: &str,
     mut end: PlantEnd<D, N>,
@@ -40,7 +40,7 @@ pub fn serve<D: Device, const N: usize>(
     }
 }
 
-/// One line of what was seen since the start.
+/// One line with the counts since the start.
 fn report(scene: &str, seen: &Statistics, step: u64, hash: u64) {
     say!(
         "hil plant {} frames good {} bad {} late {} dropped {} foreign {} refused {} repeated {}, bytes lost {}, \

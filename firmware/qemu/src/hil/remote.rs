@@ -20,7 +20,7 @@ use crate::log;
 
 /// Times that a step is asked for.
 const TRIES: u32 = 200;
-/// Times that the plant is told that the session is over.
+/// Number of messages to the plant that the session is over.
 const FAREWELLS: u32 = 3;
 
 /// The plant at the far end. Its session is over when it is dropped.
@@ -52,11 +52,11 @@ impl<'l, L: Wait> Remote<'l, L> {
         let welcome = match ask(&mut end, line, u32::MAX, &hello, welcome) {
             Ok(welcome) => welcome,
             Err(Unanswered::Refused(Refusal::Identity(mismatch, _))) => {
-                log!(error, "remote plant: it has another {}", mismatch.name());
+                log!(error, "remote plant: mismatch of {}", mismatch.name());
                 return None;
             }
             Err(_) => {
-                log!(error, "remote plant: it refused the session");
+                log!(error, "remote plant: the session was refused");
                 return None;
             }
         };
@@ -70,7 +70,7 @@ impl<'l, L: Wait> Remote<'l, L> {
         self.newest.hash
     }
 
-    /// What the controller's end has seen.
+    /// Counts at the controller's end.
     pub fn statistics(&self) -> &Statistics {
         self.end.statistics()
     }
@@ -85,13 +85,13 @@ impl<'l, L: Wait> Remote<'l, L> {
                 return Status::Running;
             }
             Ok(outputs) => {
-                log!(error, "remote plant: it failed at step {}", outputs.step);
+                log!(error, "remote plant: failure at step {}", outputs.step);
                 self.newest = outputs;
             }
-            Err(Unanswered::Refused(_)) => log!(error, "remote plant: it refused step {}", step),
+            Err(Unanswered::Refused(_)) => log!(error, "remote plant: step {} was refused", step),
             Err(Unanswered::Silent) => log!(error, "remote plant: no answer to step {}", step),
         }
-        // What the plant's end knows of the cause is not said over the line: there are no further steps.
+        // The plant does not send the cause: there are no further steps.
         Status::Failed(Failure { cause: Cause::Steps, step: step + 1 })
     }
 }

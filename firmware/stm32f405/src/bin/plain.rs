@@ -1,4 +1,4 @@
-//! The plants in a loop: it sleeps until the tick, steps, and looks whether the next tick came meanwhile.
+//! The plants in a loop: it sleeps until the tick, steps, and checks whether the next tick came meanwhile.
 #![no_std]
 #![no_main]
 

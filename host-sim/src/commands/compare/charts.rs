@@ -1,6 +1,7 @@
 //! Charts of rows of numbers: of a run without its scene, of the differences of two runs.
 //!
-//! `names, rows => charts of at most so many values`. Of many bodies those that go furthest are drawn.
+//! `names, rows => charts with a limited number of values`. Of many bodies those with the largest displacement are
+//! drawn.
 
 use dbd_report::curves::{Curves, FEWEST_POINTS, MOST_POINTS};
 use dbd_report::data::{Chart, Line, Section, Thinned};
@@ -9,16 +10,16 @@ use dbd_report::packed::{F32s, F64s};
 /// Values of all lines: 5.4 bytes of text each.
 const ROOM: usize = 60_000;
 
-/// Bodies that are drawn at most.
+/// Largest number of drawn bodies.
 const MOST_BODIES: usize = 40;
 
-/// Charts before there are values.
+/// Charts without values.
 #[derive(Clone, Debug, Default)]
 pub struct ChartList {
     charts: Vec<Chart>,
 }
 
-/// A chart that was added last.
+/// The chart added last.
 pub struct Added<'c>(&'c mut Chart);
 
 impl Added<'_> {
@@ -28,7 +29,7 @@ impl Added<'_> {
         self
     }
 
-    /// It is about a body, by its row.
+    /// The row of its body, if it has one.
     pub fn of_body(self, body: usize) -> Self {
         self.0.body = Some(body);
         self
@@ -40,7 +41,7 @@ impl Added<'_> {
 pub struct Charted {
     /// \[s\] their times.
     pub times: F64s,
-    /// Where they show less than there was.
+    /// Notes on omitted values.
     pub thinned: Option<Thinned>,
     /// The charts.
     pub charts: Vec<Chart>,
@@ -67,7 +68,7 @@ impl ChartList {
         Added(&mut self.charts[last])
     }
 
-    /// Takes rows of so many samples, a value per line in the order in which they were added.
+    /// Adds rows of the given number of samples, a value per line in the order in which lines were added.
     #[must_use]
     pub fn curves(&self, samples: u64) -> Curves {
         let lines = self.charts.iter().flat_map(|chart| &chart.lines);

@@ -1,4 +1,4 @@
-//! What tells two runs apart before any number is compared: scheme, precision, step, changed values and the like.
+//! Differences of two runs in scheme, precision, step, changed values and the like.
 
 use dbd_plant::time::display;
 use serde::Serialize;
@@ -6,21 +6,21 @@ use serde::Serialize;
 use crate::comparison::Comparison;
 use crate::recorded::{Head, Kind};
 
-/// A fact that is another in A and in B.
+/// A property that differs between A and B.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Differs {
-    /// What it is: `scheme`, `step`, `set body.cart.mass` …
+    /// Its name: `scheme`, `step`, `set body.cart.mass` …
     pub what: String,
-    /// As it is in A; `None` where it is not recorded.
+    /// Its value in A; `None` if not recorded.
     pub a: Option<String>,
-    /// As it is in B.
+    /// Its value in B.
     pub b: Option<String>,
 }
 
-/// A fact of a run, in words.
+/// A property of a run as text.
 type Fact = fn(&Head) -> Option<String>;
 
-/// What differs between the two runs, without what only one of them records.
+/// The differences between the two runs, without properties that only one of them records.
 #[must_use]
 pub fn differs(comparison: &Comparison) -> Vec<Differs> {
     let [a, b] = &comparison.heads;
@@ -79,7 +79,7 @@ pub fn differs(comparison: &Comparison) -> Vec<Differs> {
     all
 }
 
-/// The same with what was set alike in many places in one line each.
+/// The same with equal changes of many values combined in one line.
 #[must_use]
 pub fn grouped(all: Vec<Differs>) -> Vec<Differs> {
     let mut groups: Vec<(Differs, usize)> = Vec::new();
@@ -102,7 +102,7 @@ pub fn grouped(all: Vec<Differs>) -> Vec<Differs> {
 }
 
 impl Differs {
-    /// The fact of A and of B, in words.
+    /// The values of A and of B as text.
     #[must_use]
     pub fn sides(&self) -> [&str; 2] {
         [&self.a, &self.b].map(|side| side.as_deref().unwrap_or("–"))

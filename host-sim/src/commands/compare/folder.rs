@@ -1,6 +1,6 @@
-//! The folder of a comparison: `OUT/compare/NAME`, after what tells the two runs' places apart.
+//! The folder of a comparison: `OUT/compare/NAME`, named after the difference of the two runs' paths.
 //!
-//! The report of two other runs is never replaced unasked: `compare.json` says whose it is.
+//! The report of two other runs is replaced only with --overwrite: `compare.json` names its runs.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -11,13 +11,13 @@ use serde::Deserialize;
 use crate::commands::compare::record::whole;
 use crate::commands::folder::FolderError;
 
-/// What says that the others are there.
+/// The file that marks the report complete.
 pub const SEAL: &str = "compare.json";
 
 /// The page.
 pub const PAGE: &str = "report.html";
 
-/// Where a comparison is written.
+/// The destination of a comparison.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
     out: PathBuf,
@@ -27,7 +27,7 @@ pub struct Place {
     overwrite: bool,
 }
 
-/// Whose a comparison is.
+/// The runs of a comparison.
 #[derive(Deserialize)]
 struct Owner {
     a: Of,
@@ -60,10 +60,10 @@ impl Place {
         Ok(folder)
     }
 
-    /// Sees that a folder does not hold the report of two other runs, unless it is to be replaced.
+    /// Checks that a folder has no report of two other runs, unless it is to be replaced.
     ///
     /// # Errors
-    /// Where it does.
+    /// If it has one.
     pub fn claim(&self, folder: &Path) -> Result<(), FolderError> {
         let owner = read_text(folder.join(SEAL)).ok();
         let owner = owner.and_then(|text| serde_json::from_str::<Owner>(&text).ok());
@@ -77,7 +77,7 @@ impl Place {
     }
 }
 
-/// The parts of a run's place, the last first: its folder, or a golden file without its extension.
+/// The components of a run's path, the last first: its folder, or a golden file without its extension.
 fn parts(called: &Path) -> Vec<String> {
     let whole = called.canonicalize().unwrap_or_else(|_| called.to_owned());
     let folder = match whole.extension().and_then(|extension| extension.to_str()) {
@@ -92,7 +92,7 @@ fn parts(called: &Path) -> Vec<String> {
     names.collect()
 }
 
-/// A name of what two places share at their end, and what tells them apart.
+/// A name from the common end of two paths and their difference.
 fn name([a, b]: [Vec<String>; 2]) -> String {
     let shared = a.iter().zip(&b).take_while(|(a, b)| a == b).count();
     let apart = |of: &[String]| of.get(shared).cloned();

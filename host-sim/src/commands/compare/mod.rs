@@ -2,11 +2,11 @@
 //!
 //! `(A, B, bands) => comparison => OUT/compare/NAME/{report.html,compare.json}, words`.
 //!
-//! - [`differs`]: what tells the two runs apart.
-//! - [`words`]: what people read.
-//! - [`record`]: what programs read.
-//! - [`folder`]: where it is written.
-//! - [`scene`], [`charts`], [`replay`], [`mod@page`]: what people look at.
+//! - [`differs`]: the settings in which the two runs differ.
+//! - [`words`]: the report for people.
+//! - [`record`]: the report for programs.
+//! - [`folder`]: its folder.
+//! - [`scene`], [`charts`], [`replay`], [`mod@page`]: the page.
 
 pub mod charts;
 pub mod differs;
@@ -36,30 +36,30 @@ use crate::recorded::{Recorded, Unreadable};
 use crate::terminal::Catalogue;
 use crate::terminal::text::json;
 
-/// What is compared, and where the report goes.
+/// The compared runs and the destination of the report.
 #[derive(Clone, Debug, Args)]
 pub struct CompareArguments {
-    /// A run: its folder (out/four-bar), its trace.csv or summary.json; or a golden file, also within what a
-    /// console showed
+    /// A run: its folder (out/four-bar), its trace.csv or summary.json; or a golden file, also within a
+    /// console log
     #[arg(value_hint = ValueHint::AnyPath)]
     pub a: PathBuf,
-    /// Another
+    /// The second run, likewise
     #[arg(value_hint = ValueHint::AnyPath)]
     pub b: PathBuf,
-    /// Accept what stays within bands: 1e-6 for all in SI units, or
+    /// Accept differences within bands: 1e-6 for all in SI units, or
     /// position=1e-6,orientation=1e-6,velocity=1e-3,angular-velocity=1e-3,READOUT=1e-3
     #[arg(long, value_name = "BANDS", allow_hyphen_values = true)]
     pub band: Option<BandList>,
-    /// Folder below which the report is written, in compare/NAME/
+    /// Folder for the report, written to compare/NAME/ in it
     #[arg(long, value_name = "DIR", default_value = "out", value_hint = ValueHint::DirPath)]
     pub out: PathBuf,
-    /// Write no report and nothing else
+    /// Do not write a report
     #[arg(long)]
     pub no_report: bool,
-    /// Replace the report of two other runs whose folders have the same names
+    /// Overwrite the report of two other runs whose folders have the same names
     #[arg(long)]
     pub overwrite: bool,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(long)]
     pub quiet: bool,
     /// Print the comparison as JSON
@@ -87,10 +87,10 @@ pub enum CompareRefusal {
     Write(io::Error),
 }
 
-/// What a comparison came to.
+/// The outcome of a comparison.
 #[derive(Clone, Debug)]
 pub struct Compared {
-    /// What was seen.
+    /// The comparison.
     pub comparison: Comparison,
     /// The same for programs.
     pub record: Record,
@@ -98,7 +98,7 @@ pub struct Compared {
     pub folder: Option<PathBuf>,
 }
 
-/// Compares two runs and writes the report. `progress` hears of common samples done and to do.
+/// Compares two runs and writes the report. `progress` is called with the finished and total numbers of common samples.
 ///
 /// # Errors
 /// [`CompareRefusal`]; nothing is written then.
@@ -132,7 +132,7 @@ pub fn compare_runs(
         let mut files = FileSet::new(&at);
         let written = files.write(PAGE, &page).and_then(|()| files.write(SEAL, &json(&record)));
         let whole = written.and_then(|()| files.finish()).map_err(CompareRefusal::Write)?;
-        // Another comparison may have come there meanwhile.
+        // Another comparison may have been written there meanwhile.
         place.claim(&at)?;
         whole.publish().map_err(CompareRefusal::Write)?;
         folder = Some(at);

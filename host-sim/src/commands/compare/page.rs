@@ -1,4 +1,4 @@
-//! The page of a comparison: both runs, their differences, what differs first.
+//! The page of a comparison: both runs, their differences, the first difference.
 //!
 //! `comparison, scenes, rows => data => HTML`. The rows are read a second time, one run after the other, so that runs of
 //! any length fit into memory.
@@ -22,13 +22,13 @@ use crate::comparison::Comparison;
 use crate::comparison::pairing::Pairing;
 use crate::recorded::{Head, Recorded, Row, Unreadable};
 
-/// Mechanisms of more bodies have no still picture.
+/// Largest number of bodies in a still picture.
 const MOST_PICTURED: usize = 500;
 
-/// Letters of what tells two runs apart in a title.
+/// Longest description of two runs in a title.
 const LONGEST_TITLE: usize = 60;
 
-/// The differences of two runs, as they are compared.
+/// The differences of two runs during the comparison.
 pub struct Differences {
     list: ChartList,
     curves: Curves,
@@ -37,7 +37,7 @@ pub struct Differences {
 }
 
 impl Differences {
-    /// Of two runs that are about to be compared.
+    /// For two runs before the comparison.
     #[must_use]
     pub fn new(heads: [&Head; 2]) -> Self {
         let pairing = Pairing::of(heads);
@@ -49,7 +49,7 @@ impl Differences {
         for pair in &pairing.bodies {
             let texts = [&*format!("{}: position", pair.name), "A − B", "m"];
             list.add(Section::Motion, texts, &["x", "y", "z"]).of_body(pair.rows[0]);
-            let texts = [&*format!("{}: turn between A and B", pair.name), "angle", "rad"];
+            let texts = [&*format!("{}: rotation between A and B", pair.name), "angle", "rad"];
             list.add(Section::Motion, texts, &[""]).of_body(pair.rows[0]);
         }
         let samples = heads[0].samples.min(heads[1].samples);
@@ -57,7 +57,7 @@ impl Differences {
         Self { list, curves, values: Vec::new(), pairing }
     }
 
-    /// Takes a common sample.
+    /// Adds a common sample.
     pub fn look(&mut self, a: &Row, b: &Row) {
         let Self { values, pairing, .. } = self;
         values.clear();
@@ -76,7 +76,7 @@ impl Differences {
     }
 }
 
-/// What a run is called beside the other: by what tells them apart.
+/// The label of a run, from its differences to the other.
 #[must_use]
 pub fn labels(comparison: &Comparison) -> [String; 2] {
     const TELLING: [&str; 7] =
@@ -127,7 +127,7 @@ pub fn page(
         let run = match of {
             Ok(run) => run,
             Err(why) => {
-                warnings.push(format!("no animation of {}: {why}", ["A", "B"][side]));
+                warnings.push(format!("no animation for {}: {why}", ["A", "B"][side]));
                 of_rows(Recorded::open(called[side])?, end)?
             }
         };
@@ -168,7 +168,7 @@ pub fn page(
     Ok(html(&data))
 }
 
-/// The title: the scene, and what tells the runs apart where that is short, else their places.
+/// The title: the scene, and the differences of the runs if short, else their paths.
 fn title(name: &str, labels: &[String; 2], called: [&Path; 2]) -> String {
     let facts = labels.each_ref().map(|label| label.split_once(": ").map(|(_, facts)| facts));
     match facts {
@@ -186,7 +186,7 @@ fn lead(comparison: &Comparison) -> String {
     let apart = apart.collect::<Vec<_>>().join(", ");
     match apart.is_empty() {
         true => format!("The two runs are {verdict}."),
-        false => format!("The two runs are {verdict}. At most they are apart {apart}."),
+        false => format!("The two runs are {verdict}. The largest difference is {apart}."),
     }
 }
 
@@ -214,11 +214,11 @@ fn tables(comparison: &Comparison) -> Vec<Table> {
         };
         let rows = facts.iter().map(row).collect();
         let columns = texts(&["what", "A", "B"]);
-        tables.push(Table { title: "What tells them apart".into(), columns, rows });
+        tables.push(Table { title: "Differences of the runs".into(), columns, rows });
     }
     let rows =
         comparison.quantities.iter().map(|of| words::quantity(of, comparison.banded).to_vec());
     let rows = rows.collect();
-    tables.push(Table { title: "How far apart".into(), columns: texts(&words::COLUMNS), rows });
+    tables.push(Table { title: "Distances".into(), columns: texts(&words::COLUMNS), rows });
     tables
 }

@@ -1,4 +1,4 @@
-//! A comparison as programs read it: `compare.json`, and what `--json` prints.
+//! A comparison for programs: `compare.json` and the output of `--json`.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::comparison::{Beyond, Comparison, First, Quantity, Verdict};
 use crate::recorded::{Head, Kind};
 use crate::report::SetValue;
 
-/// A comparison. SI units; what is not finite is null.
+/// A comparison. SI units; non-finite values are null.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Record {
     /// `equal`, `within` or `different`.
@@ -20,7 +20,7 @@ pub struct Record {
     pub a: RunRecord,
     /// The second.
     pub b: RunRecord,
-    /// What tells them apart.
+    /// Their differences in settings.
     pub differs: Vec<Differs>,
     /// The samples that both have.
     pub common: Common,
@@ -28,19 +28,19 @@ pub struct Record {
     pub first_difference: Option<First>,
     /// The first sample beyond a band; `None` where none is, or no bands were stated.
     pub beyond: Option<Beyond>,
-    /// How far apart they are.
+    /// The distances.
     pub quantities: Vec<Quantity>,
     /// What only the first has.
     pub only_a: Alone,
     /// What only the second has.
     pub only_b: Alone,
-    /// What else is to be known, a sentence each.
+    /// Notes, one sentence each.
     pub notes: Vec<String>,
     /// The version of host-sim that compared.
     pub version: &'static str,
 }
 
-/// What a run was.
+/// The properties of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RunRecord {
     /// The whole path of the file that holds its samples.
@@ -56,11 +56,11 @@ pub struct RunRecord {
     /// ρ∞, of the scheme that has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rho: Option<f64>,
-    /// How dampers acted, where it is recorded.
+    /// The damping method, if recorded.
     pub damping: Option<String>,
     /// The precision.
     pub precision: String,
-    /// How orientations were stored.
+    /// The representation of orientations.
     pub orientation: String,
     /// \[s\] the step.
     pub step: f64,
@@ -72,7 +72,7 @@ pub struct RunRecord {
     pub until: f64,
     /// `ok`, or why it ended early; `None` where it is not recorded.
     pub status: Option<String>,
-    /// What was changed of the scene.
+    /// The changed values of the scene.
     pub set: Vec<SetValue>,
 }
 

@@ -1,4 +1,4 @@
-//! A recorded run once more, as its page shows it.
+//! A recorded run, replayed for its page.
 //!
 //! `scene, rows => film, curves`; without a scene the curves of what was recorded alone. Where a table drives an
 //! input, its value follows from the time; forces follow from poses and velocities.
@@ -18,7 +18,7 @@ use crate::commands::compare::charts::ChartList;
 use crate::comparison::run::End;
 use crate::recorded::{Head, Recorded, Row, Unreadable};
 
-/// The run of a scene; or why it cannot be seen.
+/// The run of a scene, or why it cannot be shown.
 ///
 /// # Errors
 /// Where its rows cannot be read again.
@@ -40,7 +40,7 @@ pub fn of_scene(
     let missing = vec![f64::NAN; readings];
     while let Some(row) = run.next_row()? {
         let state = state_of(&initial, row);
-        // A plant in this state knows what its tables give now.
+        // A plant in this state evaluates its tables at this time.
         let state = match plant.set_state(&state) {
             Ok(()) => plant.state(),
             Err(_) => state,
@@ -68,7 +68,7 @@ fn begun(
     Ok((Recording::new(scene, method, plan)?, plant(scene, method, plan.step)?))
 }
 
-/// The method of a run; `None` where this program does not hold it.
+/// The method of a run; `None` if this program does not include it.
 fn method(head: &Head) -> Option<Method> {
     let scheme = SchemeName::of_name(&head.scheme)?;
     let precision = PrecisionName::of_name(&head.precision)?;
@@ -85,7 +85,7 @@ fn method(head: &Head) -> Option<Method> {
     method.check_built().ok().map(|()| method)
 }
 
-/// A plan of as many samples.
+/// A plan with the given number of samples.
 fn plan(head: &Head, end: End) -> Plan {
     let steps = |time: f64| (time / head.step).round() as u64;
     let stride = steps(end.every.unwrap_or(head.step)).max(1);
@@ -105,7 +105,7 @@ fn state_of(initial: &State<SceneModel<F64>>, row: &Row) -> State<SceneModel<F64
     state
 }
 
-/// The curves of a run whose scene is not known.
+/// The curves of a run without a known scene.
 ///
 /// # Errors
 /// Where its rows cannot be read again.

@@ -1,6 +1,6 @@
-//! The scenes of recorded runs, loaded again where they are what they were.
+//! The scenes of recorded runs, loaded again if they are unchanged.
 //!
-//! `head, catalogue => scene; or why there is none`. Without its scene a run has curves, and no mechanism to be seen.
+//! `head, catalogue => scene; or why there is none`. Without its scene a run has curves, but no animation.
 
 use std::ffi::OsStr;
 
@@ -11,17 +11,17 @@ use crate::recorded::{Head, Kind};
 use crate::terminal::catalogue::BUILT_IN;
 use crate::terminal::{Catalogue, LoadError};
 
-/// What a summary says of a scene that came from nowhere.
+/// The origin of a scene from standard input, as a summary records it.
 const STANDARD_INPUT: &str = "standard input";
 
-/// The scenes of two runs, or a sentence each that says why there is none.
+/// The scenes of two runs, or for each the reason why it is missing.
 pub fn scenes(catalogue: &Catalogue, heads: &[Head; 2]) -> [Result<Scene, String>; 2] {
     let of_run = |head: &Head| match head.kind {
         Kind::Run => of_run(catalogue, head),
         Kind::Golden => Err(String::new()),
     };
     let mut scenes = heads.each_ref().map(of_run);
-    // The second may have found what is the first's, too.
+    // The scene found for the second may also be that of the first.
     for (own, other) in [(0, 1), (1, 0), (0, 1)] {
         if heads[own].kind == Kind::Golden && scenes[own].is_err() {
             scenes[own] = of_golden(catalogue, &heads[own], &scenes[other]);
@@ -32,7 +32,7 @@ pub fn scenes(catalogue: &Catalogue, heads: &[Head; 2]) -> [Result<Scene, String
 
 fn of_run(catalogue: &Catalogue, head: &Head) -> Result<Scene, String> {
     let called = match head.scene_file.as_deref() {
-        None => return Err("its summary does not say which file its scene comes from".into()),
+        None => return Err("its summary does not name the scene's file".into()),
         Some(STANDARD_INPUT) => return Err("its scene came from standard input".into()),
         Some(BUILT_IN) => &head.scene,
         Some(file) => file,
@@ -42,7 +42,7 @@ fn of_run(catalogue: &Catalogue, head: &Head) -> Result<Scene, String> {
     let why = |error: LoadError| format!("its scene cannot be loaded: {error}");
     let found = catalogue.load_with(called, &changes).map_err(why)?;
     if head.scene_hash.as_ref().is_some_and(|hash| *hash != found.file.hash) {
-        return Err(format!("its scene, {called}, has changed since"));
+        return Err(format!("its scene, {called}, has changed since the run"));
     }
     fits(found.scene, head)
 }
@@ -67,17 +67,17 @@ fn of_golden(
     match found.find(|found| own(&found.scene)) {
         Some(found) => fits(found.scene, head),
         None => Err(format!(
-            "no scene `{0}` with its model is built in or lies beside the file: put {0}.toml there",
+            "no scene `{0}` with its model is built in or next to the file: put {0}.toml there",
             head.scene
         )),
     }
 }
 
-/// The scene, where the run's bodies are its bodies.
+/// The scene, if its bodies are those of the run.
 fn fits(scene: Scene, head: &Head) -> Result<Scene, String> {
     if scene.body_names == head.bodies {
         Ok(scene)
     } else {
-        Err("its scene has other bodies than it recorded".into())
+        Err("its scene and its recording have different bodies".into())
     }
 }

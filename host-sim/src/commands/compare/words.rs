@@ -1,4 +1,4 @@
-//! A comparison as people read it: on the terminal, and in the tables of the page.
+//! A comparison for people: on the terminal and in the tables of the page.
 
 use dbd_plant::digits::significant;
 use dbd_plant::time::{display, rounded};
@@ -8,10 +8,10 @@ use crate::comparison::{Comparison, Quantity, Verdict};
 use crate::recorded::Kind;
 use crate::terminal::Look;
 
-/// Lists of names are no longer.
+/// Longest list of names.
 const MOST_NAMES: usize = 8;
 
-/// What a run was, in a line.
+/// The properties of a run in a line.
 #[must_use]
 pub fn run(comparison: &Comparison, side: usize) -> String {
     let (head, end) = (&comparison.heads[side], comparison.ends[side]);
@@ -31,7 +31,7 @@ pub fn run(comparison: &Comparison, side: usize) -> String {
     )
 }
 
-/// The verdict in words.
+/// The verdict as text.
 #[must_use]
 pub fn verdict(comparison: &Comparison) -> String {
     let Comparison { first, beyond, samples, pairing, .. } = comparison;
@@ -41,14 +41,16 @@ pub fn verdict(comparison: &Comparison) -> String {
         Verdict::Different => match (beyond, first) {
             (Some(beyond), _) => format!("different, first beyond its band at {beyond}"),
             (None, Some(_)) if !comparison.banded => "different".into(),
-            _ if pairing.lacks_bodies() => "different: not all bodies are in both".into(),
-            _ if comparison.ended_apart() => "different: one failed where the other did not".into(),
+            _ if pairing.lacks_bodies() => "different: some bodies are in one run only".into(),
+            _ if comparison.ended_apart() => {
+                "different: only one run failed, or they failed at different times".into()
+            }
             _ => "different".into(),
         },
     }
 }
 
-/// What else is to be known, a sentence each.
+/// Notes, one sentence each.
 #[must_use]
 pub fn notes(comparison: &Comparison) -> Vec<String> {
     let mut notes = Vec::new();
@@ -57,7 +59,7 @@ pub fn notes(comparison: &Comparison) -> Vec<String> {
     if a.until != b.until && (a.until - b.until).abs() > 1e-9 * a.until {
         let (shorter, longer) = if a.until < b.until { ("A", "B") } else { ("B", "A") };
         notes.push(format!(
-            "{shorter} ends at {}, {longer} at {}: compared is what both have",
+            "{shorter} ends at {}, {longer} at {}: only the common part is compared",
             from_to(a.until.min(b.until)),
             from_to(a.until.max(b.until)),
         ));
@@ -79,12 +81,12 @@ pub fn notes(comparison: &Comparison) -> Vec<String> {
     notes
 }
 
-/// How to find the very step, where it lies between two samples.
+/// Instructions for finding the exact step between two samples.
 fn finer(comparison: &Comparison) -> Option<String> {
     let first = comparison.first.as_ref()?;
     let [a, _] = &comparison.heads;
     let [before, _] = first.equal_steps?;
-    // By another method, or of another scene, every step differs.
+    // With another method or scene, every step differs.
     const OTHER: [&str; 8] =
         ["scene", "scheme", "precision", "orientation", "step", "newton", "rho", "damping"];
     let other = |what: &str| OTHER.contains(&what) || what.starts_with("set ");
@@ -109,7 +111,7 @@ fn list(names: &[String]) -> String {
     }
 }
 
-/// Numbers between one and its double: counting more tells nothing.
+/// Numbers between one and its double; larger counts are not informative.
 const NOTHING_ALIKE: u64 = 1 << 52;
 
 /// The columns of the table of quantities.
@@ -121,7 +123,9 @@ pub fn quantity(quantity: &Quantity, banded: bool) -> [String; 6] {
     let Quantity { name, unit, rms, largest, body, time, ulps, band, .. } = quantity;
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     let number = |value: &Option<f64>| {
-        value.map_or("no number in one".into(), |value| format!("{}{unit}", significant(value, 4)))
+        value.map_or("not a number in one run".into(), |value| {
+            format!("{}{unit}", significant(value, 4))
+        })
     };
     if quantity.is_equal() {
         let dash = || "–".to_owned();
@@ -141,7 +145,7 @@ pub fn quantity(quantity: &Quantity, banded: bool) -> [String; 6] {
     [name.clone(), number(rms), largest, body.clone().unwrap_or_else(|| "–".into()), time, ulps]
 }
 
-/// What is printed.
+/// The printed text.
 #[must_use]
 pub fn text(comparison: &Comparison, look: Look) -> String {
     let mut rows = vec![("A", run(comparison, 0)), ("B", run(comparison, 1))];

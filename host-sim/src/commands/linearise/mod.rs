@@ -23,7 +23,7 @@ use crate::commands::linearise::formats::Format;
 pub use crate::commands::linearise::report::{LinearReport, Pole, Quantity};
 use crate::terminal::Found;
 
-/// What is linearised, when, and where the result goes.
+/// The scene, the time and the destination of a linearisation.
 #[derive(Clone, Debug, Args)]
 pub struct LineariseArguments {
     /// The scene
@@ -32,17 +32,17 @@ pub struct LineariseArguments {
     /// Run to this time first, with the default method and step, e.g. 0.5s [default: stay at t = 0]
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub at: Option<Time>,
-    /// Outputs that become the states: as many as slow motions are kept [default: twelve coordinates per
+    /// Outputs to use as states, one per retained slow motion [default: twelve coordinates per
     /// body]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub states: Option<Vec<String>>,
     /// Inputs [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub inputs: Option<Vec<String>>,
-    /// Outputs [default: the states, without --states all read-outs]
+    /// Outputs [default: the states; without --states, all read-outs]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub outputs: Option<Vec<String>>,
-    /// Write A, B, C and D to this file, whole or not at all; its name ends with .json, .csv or .m (MATLAB)
+    /// Write A, B, C and D to this file, atomically; its name ends with .json, .csv or .m (MATLAB)
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
 }
@@ -65,14 +65,14 @@ pub enum LineariseError {
         /// All that there are.
         known: Vec<String>,
     },
-    /// The file's name says no format.
+    /// The file name has no known extension.
     #[error("{} does not end with .json, .csv or .m", file.display())]
     Ending {
         /// The file.
         file: PathBuf,
     },
-    /// The file holds something else.
-    #[error("{} holds what host-sim linearise has not written", file.display())]
+    /// The file has other contents.
+    #[error("{} was not written by host-sim linearise", file.display())]
     Taken {
         /// The file.
         file: PathBuf,
@@ -82,7 +82,7 @@ pub enum LineariseError {
     Write {
         /// The file.
         file: PathBuf,
-        /// Why; part of the message and therefore not a source, which would say it twice.
+        /// The reason; part of the message and therefore not a source, which would repeat it.
         reason: io::Error,
     },
 }
@@ -92,7 +92,7 @@ impl Diagnostic for LineariseError {
         match self {
             Self::Instance(error) => error.help(),
             Self::Unknown { kind, name, known, .. } if known.is_empty() => {
-                Some(Box::new(format!("it has no {kind}s; leave `{name}` out")))
+                Some(Box::new(format!("it has no {kind}s; omit `{name}`")))
             }
             Self::Unknown { kind, name, known, .. } => {
                 let meant = nearest(name, known.iter().map(String::as_str));
@@ -100,8 +100,10 @@ impl Diagnostic for LineariseError {
                     meant.map(|meant| format!("did you mean {meant}? ")).unwrap_or_default();
                 Some(Box::new(format!("{meant}the {kind}s: {}", known.join(", "))))
             }
-            Self::Ending { .. } => Some(Box::new("the ending chooses the format")),
-            Self::Taken { .. } => Some(Box::new("--out takes another name, or remove that file")),
+            Self::Ending { .. } => Some(Box::new("the extension selects the format")),
+            Self::Taken { .. } => {
+                Some(Box::new("choose another file with --out, or remove that one"))
+            }
             Self::Write { .. } => None,
         }
     }
@@ -140,7 +142,7 @@ pub fn linearise(
     let linear = instance.linearise(&options)?;
     let report = LinearReport::of(found, &instance, linear, states.is_some())?;
     if let Some((file, format)) = out {
-        // A device, which looks empty, takes no other file's name either.
+        // A device, which seems empty, is not replaced either.
         if file.exists() && !(file.is_file() && is_ours(file, format)) {
             return Err(LineariseError::Taken { file: file.to_owned() });
         }
@@ -172,7 +174,7 @@ fn check<'n>(
     })
 }
 
-/// Whether a file begins as one of this format does; an empty one holds nothing to lose.
+/// Whether a file begins as one of this format does; an empty file may be replaced.
 fn is_ours(file: &Path, format: Format) -> bool {
     let Ok(content) = std::fs::File::open(file) else { return false };
     let head = format.head();

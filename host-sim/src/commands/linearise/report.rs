@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::report::SetValue;
 use crate::terminal::{Found, Look};
 
-/// Poles that the text shows; the files hold all.
+/// Largest number of poles in the text; the files contain all.
 const MAX_POLES: usize = 24;
 
 /// A state, an input or an output.
@@ -111,7 +111,7 @@ impl LinearReport {
         })
     }
 
-    /// What people read.
+    /// The report for people.
     #[must_use]
     pub fn text(&self, look: Look) -> String {
         let list = |all: &[Quantity]| {
@@ -127,7 +127,7 @@ impl LinearReport {
         } else {
             let count = self.states.len();
             format!(
-                "{count}, twelve coordinates per body; --states with names of outputs keeps the slow motions"
+                "{count}, twelve coordinates per body; reduce to the slow motions with --states and output names"
             )
         };
         let left_out = match self.linear.slowest_left_out {
@@ -180,7 +180,7 @@ impl LinearReport {
         let more = shown.len().saturating_sub(MAX_POLES);
         let rest = match more {
             0 => String::new(),
-            _ => look.sentence(&format!("and {more} faster ones; --out writes all")),
+            _ => look.sentence(&format!("and {more} faster ones; --out writes all of them")),
         };
         look.columns(Some(head), &lines) + &rest
     }

@@ -75,7 +75,7 @@ pub fn c(arguments: &PlantArguments, found: &Found) -> Result<String, NewError> 
     ))
 }
 
-/// What the header calls inputs that the caller sets, read-outs and bodies.
+/// The header's names of caller-set inputs, read-outs and bodies.
 fn defines(scene: &Scene, capitals: &str) -> String {
     let mut text = String::new();
     let mut list = |what: &str, kind: &str, rows: Vec<(String, usize, String)>| {
@@ -90,7 +90,7 @@ fn defines(scene: &Scene, capitals: &str) -> String {
             text += "\n";
         }
     };
-    // Numbered as the Rust constants are, where two names would be the same.
+    // Equal names are numbered as the Rust constants are.
     let names = constant_names(scene.inputs.iter().map(|input| input.name.as_str()));
     let inputs = scene.inputs.iter().zip(names).filter(|(input, _)| !input.table);
     let inputs =
@@ -134,7 +134,7 @@ mod tests {
     use super::super::choice::ChoiceOptions;
     use super::*;
 
-    /// Two names that C would take for one are told apart, as in Rust.
+    /// Two names that are equal in C are distinguished, as in Rust.
     #[test]
     fn names_that_would_be_one_get_numbers() {
         let body = |name: &str| {
@@ -154,7 +154,7 @@ mod tests {
         }
     }
 
-    /// Nothing is left to be filled in, and nothing is asked for that is not there.
+    /// All placeholders are filled, and none is unknown.
     #[test]
     fn every_name_in_a_template_is_known() {
         let here = tempfile::tempdir().unwrap();

@@ -1,7 +1,7 @@
-//! Scheme, damping, precision and step of a new project: what is asked for, else what short runs of the scene say.
+//! Scheme, damping, precision and step of a new project: as requested, else from short runs of the scene.
 //!
-//! `(scene, options) => method, step, reasons`. Joint-wise damping costs half of sweeps on a scene of TSDAs and is taken
-//! where it is as accurate; fixed point is taken where single precision would lose slow motion.
+//! `(scene, options) => method, step, reasons`. On a scene of TSDAs, joint-wise damping costs half of damper passes and
+//! is used if it is as accurate; fixed point is used if single precision would lose slow motion.
 
 use clap::Args;
 use dbd_kernel::BodyState;
@@ -22,22 +22,22 @@ use crate::arguments::names;
 use crate::commands::export::ExportPrecision;
 use crate::commands::rounding::of_losses;
 
-/// \[s\] Ways of damping are compared over this much of a scene at most.
+/// \[s\] Longest time over which damping methods are compared.
 const WINDOW: f64 = 1.0;
 
-/// Times at which they are.
+/// Number of times at which they are compared.
 const LOOKS: u64 = 20;
 
-/// Beside a step of this part errors are measured.
+/// Errors are measured against a run with this fraction of the step.
 const FINER: u64 = 4;
 
-/// Joint-wise damping is as accurate as sweeps up to this ratio of their errors.
+/// Joint-wise damping counts as accurate as damper passes up to this ratio of errors.
 const AS_ACCURATE: f64 = 1.25;
 
-/// \[m\] Errors below this are no reason.
+/// \[m\] Errors below this are ignored.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// Steps that are looked at for lost motion at most.
+/// Largest number of steps checked for lost motion.
 const MOST_STEPS: u64 = 1_000_000;
 
 /// What is asked for.
@@ -46,10 +46,10 @@ pub struct ChoiceOptions {
     /// Time-stepping scheme of the plant [default: leapfrog]
     #[arg(long, value_parser = names::<SchemeName>())]
     pub scheme: Option<SchemeName>,
-    /// How dampers act [default: joint-wise where it is as accurate as the scheme's own]
+    /// Damping method [default: joint-wise if it is as accurate as the scheme's own]
     #[arg(long, value_parser = names::<DampingName>())]
     pub damping: Option<DampingName>,
-    /// The model's precision [default: f32, or fixed where f32 loses slow motion]
+    /// Precision of the model [default: f32, or fixed if f32 loses slow motion]
     #[arg(long, value_enum)]
     pub precision: Option<ExportPrecision>,
     /// Step, e.g. 20us [default: the scene's, else the advised one]
@@ -57,10 +57,10 @@ pub struct ChoiceOptions {
     pub step: Option<Time>,
 }
 
-/// Why nothing can be chosen.
+/// Why no method can be chosen.
 #[derive(Debug, Error, Diagnostic)]
 pub enum ChoiceError {
-    /// There is no such method, or it does not hold the scene.
+    /// The method is unknown, or cannot represent the scene.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Plant(#[from] PlantError),
@@ -79,15 +79,15 @@ pub struct Choice {
     pub step: f64,
     /// Whether the step was asked for.
     pub step_given: bool,
-    /// Why, a sentence for each thing that was chosen.
+    /// The reasons, one sentence per choice.
     pub reasons: Vec<String>,
 }
 
 impl Choice {
-    /// What is asked for, and the rest from short runs.
+    /// The requested settings, and the rest from short runs.
     ///
     /// # Errors
-    /// [`ChoiceError`] where there is no such method, or it does not hold the scene.
+    /// [`ChoiceError`] if the method is unknown, or cannot represent the scene.
     pub fn of(scene: &Scene, options: &ChoiceOptions) -> Result<Self, ChoiceError> {
         let scheme = options.scheme.unwrap_or_default();
         let asked = options.precision.map(ExportPrecision::name);
@@ -107,7 +107,7 @@ impl Choice {
             if let Some(reason) = loses(scene, &method, step)? {
                 method = match check(scene, &fixed, step) {
                     Ok(()) => {
-                        reasons.push(format!("fixed, for in f32 {reason}"));
+                        reasons.push(format!("fixed, because in f32 {reason}"));
                         fixed
                     }
                     Err(error) => {
@@ -165,7 +165,7 @@ fn damped(scene: &Scene, method: Method, step: f64) -> Result<(Method, Vec<Strin
     let fine = places(scene, &own, step / FINER as f64, looks * FINER)?;
     let error = |way: &Method| -> Result<f64, PlantError> {
         let places = places(scene, way, step, looks)?;
-        // One that failed is as far as can be.
+        // A failed run counts as infinitely far.
         let whole = places.len() == fine.len();
         Ok(if whole { distance(&places, &fine) } else { f64::INFINITY })
     };
@@ -173,7 +173,7 @@ fn damped(scene: &Scene, method: Method, step: f64) -> Result<(Method, Vec<Strin
     if other <= (AS_ACCURATE * own).max(NEGLIGIBLE) {
         let window = display(rounded((looks * LOOKS) as f64 * step, 3));
         let reason = format!(
-            "joint-wise damping: off by {} m over {window} at that step, sweeps by {} m",
+            "joint-wise damping: error {} m over {window} at that step, `sweeps`: {} m",
             significant(other, 2),
             significant(own, 2),
         );
@@ -183,7 +183,7 @@ fn damped(scene: &Scene, method: Method, step: f64) -> Result<(Method, Vec<Strin
     }
 }
 
-/// The places of all bodies after every `stride` steps, as far as the run goes.
+/// The positions of all bodies after every `stride` steps, as far as the run goes.
 fn places(
     scene: &Scene,
     method: &Method,
@@ -203,14 +203,14 @@ fn places(
     Ok(places)
 }
 
-/// \[m\] The root mean square of how far places are apart.
+/// \[m\] The root mean square of the distances of positions.
 fn distance(places: &[[f64; 3]], others: &[[f64; 3]]) -> f64 {
     let pairs = places.as_flattened().iter().zip(others.as_flattened());
     let sum: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
     (sum / places.len().max(1) as f64).sqrt()
 }
 
-/// What single precision loses of the scene's motion; `None` of one that it keeps or that fails.
+/// The motion lost in single precision; `None` if none is lost or the run fails.
 fn loses(scene: &Scene, method: &Method, step: f64) -> Result<Option<String>, PlantError> {
     check(scene, method, step)?;
     let mut plant = plant(scene, method, step)?;

@@ -12,25 +12,25 @@ pub struct DependencyOptions {
     /// Depend on the crates in a git repository, e.g. https://host/owner/name.git
     #[arg(long, value_name = "URL", conflicts_with = "registry")]
     pub git: Option<String>,
-    /// The commit, tag or branch there [default: the repository's default branch]
+    /// Commit, tag or branch for --git [default: the repository's default branch]
     #[arg(long, value_name = "REV", requires = "git")]
     pub rev: Option<String>,
-    /// Depend on the crates of this version in the registry; nothing is published yet
+    /// Depend on the crates of this version in the registry; not published yet
     #[arg(long)]
     pub registry: bool,
 }
 
-/// The crates of a new project are nowhere.
+/// The crates of a new project cannot be found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Diagnostic)]
-#[error("the sources of this program are not on this machine: a new project would not build")]
+#[error("the sources of this program are not on this machine, so a new project would not build")]
 #[diagnostic(help(
-    "--git URL --rev REV names a repository that has them; --registry is for later, when version {version} is published"
+    "name their repository with --git URL --rev REV; --registry works once version {version} is published"
 ))]
 pub struct NoSources {
     version: &'static str,
 }
 
-/// What stands behind the crates' names in `Cargo.toml`.
+/// The values of the crates' names in `Cargo.toml`.
 pub(super) struct Dependencies {
     /// Of `dbd-kernel`.
     pub(super) kernel: String,
@@ -60,18 +60,18 @@ impl Dependencies {
             // Quotes and backslashes are escaped in TOML as in Rust.
             let rev = options.rev.as_ref().map(|rev| format!(", rev = {rev:?}"));
             let of_git = format!("{{ git = {url:?}{} }}", rev.unwrap_or_default());
-            return Ok(Self::all(&of_git, format!("its crates are those of {url}")));
+            return Ok(Self::all(&of_git, format!("its crates come from {url}")));
         }
         let version = env!("CARGO_PKG_VERSION");
         if options.registry {
-            let origin = format!("its crates are those of version {version} in the registry");
+            let origin = format!("its crates come from the registry, version {version}");
             return Ok(Self::all(&format!("{version:?}"), origin));
         }
         let sources = root.filter(|root| {
             let is_there = |room| root.join(room).join("Cargo.toml").is_file();
             ["kernel", "crates/scene"].into_iter().all(is_there)
         });
-        // A path that is no text cannot stand in a TOML file.
+        // A path that is not UTF-8 cannot be written to a TOML file.
         let root = sources.and_then(Path::to_str).ok_or(NoSources { version })?;
         let in_folder = |folder: &str| format!("{{ path = {:?} }}", format!("{root}/{folder}"));
         Ok(Self {
@@ -79,7 +79,7 @@ impl Dependencies {
             scene: in_folder("crates/scene"),
             host_sim: in_folder("host-sim"),
             fmu: in_folder("crates/fmu"),
-            origin: format!("its crates are those in {root}"),
+            origin: format!("its crates come from {root}"),
             is_local: true,
         })
     }

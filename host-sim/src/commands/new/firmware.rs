@@ -46,7 +46,7 @@ const TEMPLATES: &[(&str, &str)] = &[
     ("Embed.toml", include_str!("../../../templates/firmware/Embed.toml.in")),
 ];
 
-/// What files for other machines say where the project's crates are in a folder of this one.
+/// The remark in files for other machines if the project's crates are in a local folder.
 const ELSEWHERE: &str = "\n# The crates are in a folder of one machine (Cargo.toml): elsewhere name their repository there, \
                          or write\n# the project with `host-sim new firmware --git URL --rev REV`.";
 
@@ -61,7 +61,7 @@ pub fn firmware(arguments: &PlantArguments, found: &Found) -> Result<String, New
     let estimate = instructions(scene, &choice.method, &Costs::shipped());
     let estimate = estimate.map_or_else(String::new, |count| {
         format!(
-            "some {} instructions per step, estimated by bodies and elements",
+            "about {} instructions per step, estimated from bodies and elements",
             significant(rounded(count, 2), 2)
         )
     });
@@ -83,7 +83,7 @@ pub fn firmware(arguments: &PlantArguments, found: &Found) -> Result<String, New
         dependencies.origin,
         choice.words(),
         choice.reasons.iter().map(|reason| format!("  {reason}\n")).collect::<String>(),
-        if estimate.is_empty() { "nothing like it was counted" } else { &estimate },
+        if estimate.is_empty() { "no comparable scene was measured" } else { &estimate },
     ))
 }
 
@@ -122,10 +122,10 @@ fn constants(scene: &Scene, suffix: &str) -> String {
         row("inputs", inputs),
         row("read-outs", readouts),
         row("bodies", bodies),
-        row("forces of joints", joints),
+        row("joint forces", joints),
     ];
     let rows: String = rows.into_iter().flatten().collect();
-    format!("In `model`, beside the plant:\n\n| what | constants |\n|---|---|\n{rows}")
+    format!("`model` contains the plant and:\n\n| what | constants |\n|---|---|\n{rows}")
 }
 
 #[cfg(test)]
@@ -134,7 +134,7 @@ mod tests {
     use super::super::choice::ChoiceOptions;
     use super::*;
 
-    /// Nothing is left to be filled in, and nothing is asked for that is not there.
+    /// All placeholders are filled, and none is unknown.
     #[test]
     fn every_name_in_a_template_is_known() {
         let here = tempfile::tempdir().unwrap();

@@ -12,7 +12,7 @@ use tempfile::Builder;
 /// [`io::ErrorKind::AlreadyExists`] where something has the folder's name; whatever keeps a file from
 /// being written. Nothing is left behind then.
 pub fn write(folder: &Path, files: &[(PathBuf, String)]) -> io::Result<()> {
-    // A link to nowhere is something, too.
+    // A dangling link exists, too.
     if folder.symlink_metadata().is_ok() {
         return Err(io::ErrorKind::AlreadyExists.into());
     }
@@ -34,7 +34,7 @@ pub fn write(folder: &Path, files: &[(PathBuf, String)]) -> io::Result<()> {
         fs::write(path, text)?;
     }
     fs::rename(unfinished.path(), folder)?;
-    // It has another name now: nothing is left to be removed.
+    // It has been renamed, so there is no temporary folder to remove.
     let _ = unfinished.keep();
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! `host-sim new laws`: a crate with laws of one's own, the command line that knows them, a scene, tests.
+//! `host-sim new laws`: a crate with custom laws, a command line that includes them, a scene, tests.
 //!
 //! `name => folder`. The files are those of `templates/laws/`.
 
@@ -30,7 +30,7 @@ const TEMPLATES: &[(&str, &str)] = &[
 pub struct LawsArguments {
     /// The crate's name, or a path to its folder, which must not exist yet
     pub name: PathBuf,
-    /// Where its crates come from [default: the sources of this program]
+    /// Source of its crates [default: the sources of this program]
     #[command(flatten)]
     pub dependencies: DependencyOptions,
 }
@@ -62,7 +62,7 @@ pub fn laws(arguments: &LawsArguments) -> Result<String, NewError> {
     ))
 }
 
-/// A sentence of its own.
+/// A separate sentence.
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()

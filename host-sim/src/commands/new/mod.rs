@@ -1,6 +1,6 @@
-//! `host-sim new`: projects and scenes that build and run as they are.
+//! `host-sim new`: projects and scenes, ready to build and run.
 //!
-//! `(name, scene) => folder`. The files are those of `templates/`, with what the scene tells in place of `{{…}}`.
+//! `(name, scene) => folder`. The files are those of `templates/`, with `{{…}}` replaced by the scene's values.
 
 mod c;
 mod choice;
@@ -30,22 +30,22 @@ pub use laws::{LawsArguments, laws};
 pub use name::NameError;
 pub use scene::{SceneArguments, scene};
 
-/// The scene of a project that names none.
+/// The scene of a project without a given scene.
 pub const SCENE: &str = "cart-pendulum";
 
-/// What is new.
+/// The kinds of new projects and files.
 #[derive(Clone, Debug, Subcommand)]
 pub enum NewCommand {
-    /// Writes a project with a scene as a plant in firmware: builds, runs in QEMU and on the PC
+    /// Writes a firmware project with a scene as its plant, for QEMU and the PC
     #[command(after_help = help::NEW_FIRMWARE)]
     Firmware(PlantArguments),
-    /// Writes a project with a scene as a plant for firmware in C: a static library, its header and a program
+    /// Writes a C firmware project with a scene as its plant: a static library, its header and a program
     #[command(after_help = help::NEW_C)]
     C(PlantArguments),
-    /// Writes a crate with laws of one's own between bodies, tests of them, and the command line that knows them
+    /// Writes a crate with custom laws between bodies, their tests, and a command line that includes them
     #[command(after_help = help::NEW_LAWS)]
     Laws(LawsArguments),
-    /// Writes a commented scene that runs as it is, and the schema from which editors complete its keys
+    /// Writes a commented scene, ready to run, and the schema for completion in editors
     #[command(after_help = help::NEW_SCENE)]
     Scene(SceneArguments),
 }
@@ -55,10 +55,10 @@ pub enum NewCommand {
 pub struct PlantArguments {
     /// The project's name, or a path to its folder, which must not exist yet
     pub name: PathBuf,
-    /// A scene by name (see list) or a path to a .toml file; the project gets a copy
+    /// A scene by name (see list) or a path to a .toml file; copied into the project
     #[arg(long, default_value = SCENE)]
     pub scene: String,
-    /// Where its crates come from [default: the sources of this program]
+    /// Source of its crates [default: the sources of this program]
     #[command(flatten)]
     pub dependencies: DependencyOptions,
     /// How the plant steps
@@ -69,16 +69,16 @@ pub struct PlantArguments {
 /// Why there is no project or scene.
 #[derive(Debug, Error)]
 pub enum NewError {
-    /// It cannot be called so.
+    /// Invalid name.
     #[error(transparent)]
     Name(#[from] NameError),
-    /// Something has its folder's or its file's name.
-    #[error("there is something called {} already", path.display())]
+    /// Its folder or file exists.
+    #[error("{} already exists", path.display())]
     Taken {
         /// The folder or the file.
         path: PathBuf,
     },
-    /// No method or no step holds the scene.
+    /// No method or step represents the scene.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
     /// The scene fails within the golden run.
@@ -91,7 +91,7 @@ pub enum NewError {
         /// Where.
         failure: String,
     },
-    /// Its crates are nowhere.
+    /// Its crates cannot be found.
     #[error(transparent)]
     Sources(#[from] NoSources),
     /// It cannot be written.
@@ -99,7 +99,7 @@ pub enum NewError {
     Write {
         /// The folder or the file.
         path: PathBuf,
-        /// Why; part of the message and therefore not a source, which would say it twice.
+        /// The reason; part of the message and therefore not a source, which would repeat it.
         reason: io::Error,
     },
 }
@@ -109,9 +109,11 @@ impl Diagnostic for NewError {
         match self {
             Self::Name(error) => error.help(),
             Self::Choice(error) => error.help(),
-            Self::Taken { .. } => Some(Box::new("another name; nothing is ever overwritten")),
+            Self::Taken { .. } => {
+                Some(Box::new("choose another name; files are never overwritten"))
+            }
             Self::Fails { scene, .. } => {
-                let help = format!("host-sim run {scene} with that method finds a step that works");
+                let help = format!("host-sim run {scene} with that method finds a stable step");
                 Some(Box::new(help))
             }
             Self::Sources(error) => error.help(),
@@ -150,7 +152,7 @@ impl<'p> Place<'p> {
     }
 }
 
-/// A template with its values. No value is looked through for names: a scene may hold anything.
+/// A template with its values. Values are not searched for placeholders: a scene may contain anything.
 fn filled(template: &str, values: &[(&str, String)]) -> String {
     let mut text = String::new();
     let mut rest = template;
@@ -158,7 +160,7 @@ fn filled(template: &str, values: &[(&str, String)]) -> String {
         text += before;
         match values.iter().find(|(known, _)| *known == name) {
             Some((_, value)) => text += value,
-            // Braces of the template's own.
+            // Braces that belong to the template.
             None => text += &format!("{{{{{name}}}}}"),
         }
         rest = after;
@@ -166,7 +168,7 @@ fn filled(template: &str, values: &[(&str, String)]) -> String {
     text + rest
 }
 
-/// What stands before the first `{{name}}`, its name, and what stands behind it.
+/// The text before the first `{{name}}`, the name, and the text after it.
 fn placeholder(text: &str) -> Option<(&str, &str, &str)> {
     let (before, rest) = text.split_once("{{")?;
     let (name, after) = rest.split_once("}}")?;

@@ -85,7 +85,7 @@ const LONGEST: usize = 64;
 
 /// Why a project or a scene cannot be called so.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("a {what} cannot be called \"{}\": {why}", dbd_scene::shortened(name))]
+#[error("\"{}\" is not a valid name for a {what}: {why}", dbd_scene::shortened(name))]
 pub struct NameError {
     /// What is to have the name.
     what: &'static str,

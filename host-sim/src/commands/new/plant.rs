@@ -1,4 +1,4 @@
-//! What a project with a plant has of its scene, whatever language its firmware is in.
+//! The parts of a plant project that come from its scene, for any firmware language.
 //!
 //! `(scene, options) => method and step, values of templates, golden bits`. The golden bits are those of a run of the scene
 //! here.
@@ -27,11 +27,11 @@ pub(super) struct Planted<'f> {
     pub(super) scene: &'f Scene,
     /// How it steps.
     pub(super) choice: Choice,
-    /// Where its crates come from.
+    /// The source of its crates.
     pub(super) dependencies: Dependencies,
     /// Lines `STEPS HASH` of the golden run.
     pub(super) golden: String,
-    /// What templates have of it.
+    /// The values for templates.
     pub(super) values: Vec<(&'static str, String)>,
     /// The scene's file in the project, and its text.
     pub(super) file: (PathBuf, String),
@@ -41,7 +41,7 @@ impl<'f> Planted<'f> {
     /// The plant of a project at a place.
     ///
     /// # Errors
-    /// [`NewError`] where nothing holds the scene, it fails within the golden run, or its crates are nowhere.
+    /// [`NewError`] if no method represents the scene, it fails within the golden run, or its crates cannot be found.
     pub(super) fn of(
         place: &Place<'_>,
         found: &'f Found,
@@ -91,7 +91,7 @@ fn law_crates(scene: &Scene) -> String {
     packages.into_iter().map(line).collect()
 }
 
-/// A file name that stands in source and in paths as it is.
+/// A file name that needs no quoting in source and paths.
 fn plain(stem: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '-' };
     let name: String = stem.chars().map(plain).collect();

@@ -1,7 +1,7 @@
-//! `host-sim new scene`: a scene to begin with, which runs as it is, and the schema beside it.
+//! `host-sim new scene`: a starter scene, ready to run, with the schema next to it.
 //!
-//! `(name, scene to copy) => NAME.toml, scene.schema.json`. An editor that knows Taplo's `#:schema` line completes its
-//! keys from then on; nothing is fetched from anywhere.
+//! `(name, scene to copy) => NAME.toml, scene.schema.json`. An editor that supports Taplo's `#:schema` line completes
+//! its keys; nothing is downloaded.
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ pub struct SceneArguments {
     /// The scene's name, or a path to its file, which must not exist yet; .toml is added
     #[arg(value_hint = ValueHint::FilePath)]
     pub name: PathBuf,
-    /// Begin with a copy of a scene, by name (see list) or by a path to its file
+    /// Start from a copy of a scene, by name (see list) or by a path to its file
     #[arg(long, value_name = "SCENE", value_hint = ValueHint::FilePath)]
     pub from: Option<String>,
 }
@@ -35,7 +35,7 @@ pub fn scene(path: &Path, copied: Option<&str>) -> Result<String, NewError> {
     let own = own.strip_suffix(".toml").unwrap_or(own);
     name::check_scene(own)?;
     let file = path.with_file_name(format!("{own}.toml"));
-    // A link to nowhere is something, too.
+    // A dangling link exists, too.
     if file.symlink_metadata().is_ok() {
         return Err(NewError::Taken { path: file });
     }
@@ -47,7 +47,7 @@ pub fn scene(path: &Path, copied: Option<&str>) -> Result<String, NewError> {
         Some(text) => format!("#:schema ./{}\n{}", schema::FILE, renamed(text, own)),
         None => filled(TEMPLATE, &[("name", own.to_owned())]),
     };
-    // A folder that is not there is said by its own name.
+    // A missing folder is reported by its own name.
     let folder = file.parent().filter(|folder| *folder != Path::new(""));
     if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
         let reason = std::io::ErrorKind::NotFound.into();
@@ -68,7 +68,7 @@ pub fn scene(path: &Path, copied: Option<&str>) -> Result<String, NewError> {
     ))
 }
 
-/// Whether a schema may stand there: nothing does, or one that a version of this program wrote.
+/// Whether a schema may be written: the file is missing, or was written by a version of this program.
 fn is_free(file: &Path) -> bool {
     if file.symlink_metadata().is_err() {
         return true;
@@ -94,7 +94,7 @@ fn renamed(text: &str, name: &str) -> String {
     renamed
 }
 
-/// A path as a shell takes it.
+/// A path quoted for a shell.
 fn quoted(path: &Path) -> String {
     let path = path.display().to_string();
     let plain = |c: char| c.is_ascii_alphanumeric() || "._-/\\:~+".contains(c);

@@ -20,42 +20,42 @@ use thiserror::Error;
 
 use crate::terminal::Found;
 
-/// \[byte\] no module has this size.
+/// \[byte\] larger than any module.
 const MAX_MODULE: u64 = 1 << 28;
 
 /// Why there is no page.
 #[derive(Debug, Error)]
 pub enum PlayError {
-    /// The scene does not run as it is asked for.
+    /// The scene does not run with these settings.
     #[error("{0}")]
     Refused(String, Option<String>),
-    /// A change of a number is none.
-    #[error("`{0}` is no change of a number")]
+    /// An invalid change of a number.
+    #[error("`{0}` is not a change of a number")]
     Change(String),
-    /// A text is longer than a page takes.
-    #[error("the scene `{scene}` has {bytes} bytes of text, a page takes {MOST_TEXT}")]
+    /// A text is too long for a page.
+    #[error("the text of scene `{scene}` has {bytes} bytes, a page accepts at most {MOST_TEXT}")]
     Long {
         /// Its name.
         scene: String,
         /// How many.
         bytes: usize,
     },
-    /// A speed is none.
-    #[error("a speed of {0} shows nothing")]
+    /// An invalid speed.
+    #[error("invalid --speed {0}")]
     Speed(f64),
-    /// The kernel in WebAssembly is not there.
-    #[error("there is no module {}: {reason}", file.display())]
+    /// The kernel in WebAssembly is missing.
+    #[error("cannot read the module {}: {reason}", file.display())]
     Module {
         /// Where it was looked for.
         file: PathBuf,
         /// Why not.
         reason: io::Error,
     },
-    /// Something that changes cannot be served.
-    #[error("{0} is no file that could change")]
+    /// Only a file can be served.
+    #[error("--serve needs a scene file; {0} is not one")]
     NoFile(String),
-    /// The file holds something else.
-    #[error("{} holds what is no page", file.display())]
+    /// The file has other contents.
+    #[error("{} is not a page of host-sim", file.display())]
     Taken {
         /// The file.
         file: PathBuf,
@@ -82,25 +82,27 @@ impl Diagnostic for PlayError {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         Some(match self {
             Self::Refused(_, help) => return help.clone().map(|help| Box::new(help) as _),
-            Self::Change(_) => Box::new("PATH=NUMBER, the number in the unit of the path, in SI"),
-            Self::Long { .. } => Box::new("host-sim run takes it"),
-            Self::Speed(_) => Box::new("a number above 0; 0.1 is a tenth of real time"),
+            Self::Change(_) => {
+                Box::new("write PATH=NUMBER, with the number in the SI unit of the path")
+            }
+            Self::Long { .. } => Box::new("use host-sim run"),
+            Self::Speed(_) => Box::new("give a number above 0; 0.1 is a tenth of real time"),
             Self::Module { .. } => Box::new(
-                "cargo xtask playground makes it beside host-sim, in a checkout; --module takes another place",
+                "build it next to host-sim with cargo xtask playground, in a checkout, or give its path with --module",
             ),
             Self::NoFile(_) => Box::new(
-                "a path to a .toml file; host-sim new scene NAME --from SCENE writes a copy of a scene that is built in",
+                "give a path to a .toml file; host-sim new scene NAME --from SCENE writes a copy of a built-in scene",
             ),
-            Self::Taken { .. } => Box::new("--out takes another name, or remove that file"),
+            Self::Taken { .. } => Box::new("choose another file with --out, or remove that one"),
             Self::Write { .. } => return None,
             Self::Serve { .. } => {
-                Box::new("--port takes another one; without it a free one is taken")
+                Box::new("choose another one with --port; without it a free port is used")
             }
         })
     }
 }
 
-/// What a page is asked to show.
+/// The request for a page.
 pub struct Asked<'a> {
     /// The scenes.
     pub scenes: Vec<Found>,
@@ -108,14 +110,14 @@ pub struct Asked<'a> {
     pub changes: &'a [String],
     /// How they are stepped.
     pub settings: Settings,
-    /// Simulated time per time that is watched.
+    /// Ratio of simulated to real time.
     pub speed: Option<f64>,
 }
 
-/// The page of scenes; the first must run as it is asked for.
+/// The page of scenes; the first must run with the settings.
 ///
 /// # Errors
-/// Where a scene is too long, or the first does not go with the settings.
+/// If a scene is too long, or the first is not compatible with the settings.
 pub fn page(asked: Asked<'_>) -> Result<Page, PlayError> {
     let Asked { scenes, changes, settings, speed } = asked;
     let set = numbers(changes)?;
@@ -148,7 +150,7 @@ fn numbers(changes: &[String]) -> Result<Set, PlayError> {
         .collect()
 }
 
-/// The module of a file; without one that beside this program.
+/// The module in a file; by default the one next to this program.
 ///
 /// # Errors
 /// Where it cannot be read.
@@ -161,7 +163,7 @@ pub fn module(file: Option<&Path>) -> Result<Vec<u8>, PlayError> {
 /// The page as HTML.
 ///
 /// # Errors
-/// Where the module is none.
+/// If the module is invalid.
 pub fn made(page: &Page, module: &[u8]) -> Result<String, PlayError> {
     html(page, module).map_err(|reason| PlayError::Module { file: MODULE.into(), reason })
 }
@@ -169,14 +171,14 @@ pub fn made(page: &Page, module: &[u8]) -> Result<String, PlayError> {
 /// Writes a page; the file it is in.
 ///
 /// # Errors
-/// Where the file holds what is no page, or cannot be written.
+/// If the file is not a page, or cannot be written.
 pub fn written(html: &str, out: Option<&Path>, page: &Page) -> Result<PathBuf, PlayError> {
     let usual = || match page.scenes.as_slice() {
         [one] => Path::new("out").join(&one.name).join("play.html"),
         _ => PathBuf::from("out/play.html"),
     };
     let file = out.map_or_else(usual, Path::to_owned);
-    // A device, which looks empty, takes no other file's name either.
+    // A device, which seems empty, is not replaced either.
     if file.exists() && !(file.is_file() && is_page(&file)) {
         return Err(PlayError::Taken { file });
     }
@@ -192,7 +194,7 @@ pub fn written(html: &str, out: Option<&Path>, page: &Page) -> Result<PathBuf, P
     }
 }
 
-/// Whether a file begins as a page does; an empty one holds nothing to lose.
+/// Whether a file begins as a page does; an empty file may be replaced.
 fn is_page(file: &Path) -> bool {
     let begins = |bytes: Vec<u8>| bytes.is_empty() || bytes.starts_with(b"<!doctype html>");
     read(file, MAX_MODULE).is_ok_and(begins)

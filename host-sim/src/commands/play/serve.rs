@@ -1,8 +1,8 @@
 //! A page served on this machine, and its scene as the file changes.
 //!
-//! `(page, file) => URL; GET => page, or the file's text`. The server listens on the loopback address alone, and answers
-//! only what knows the token in its URL and calls it by that address, so that no other page and no other user of
-//! the machine reads a scene.
+//! `(page, file) => URL; GET => page, or the file's text`. The server listens only on the loopback address, and answers
+//! only requests with the token in the URL and this address as host, so that no other page and no other user of
+//! the machine can read a scene.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use tiny_http::{Header, Method, Request, Response, Server, StatusCode};
 use crate::commands::play::{PlayError, made};
 use crate::terminal::SceneFile;
 
-/// Serves a page until a signal ends the program; `told` hears of its URL.
+/// Serves a page until a signal ends the program; `told` is called with its URL.
 ///
 /// # Errors
-/// Where the port is taken or the module is none.
+/// If the port is in use or the module is invalid.
 pub fn serve(
     page: Page,
     module: &[u8],
@@ -36,13 +36,13 @@ pub fn serve(
     told(&format!("http://127.0.0.1:{bound}/{}/", site.token));
     for request in server.incoming_requests() {
         let answer = site.answer(&request, file);
-        // A browser that has gone needs none.
+        // A closed browser needs no answer.
         let _ = request.respond(answer);
     }
     Ok(())
 }
 
-/// 128 bits that nobody guesses, in hexadecimal digits.
+/// 128 random bits in hexadecimal.
 fn token() -> Result<String, getrandom::Error> {
     let mut bits = [0; 16];
     getrandom::fill(&mut bits)?;
@@ -76,9 +76,9 @@ impl Site {
                         answer(200, "application/json", said.to_string())
                     }
                 },
-                _ => answer(404, "text/plain", "there is no such page\n".into()),
+                _ => answer(404, "text/plain", "page not found\n".into()),
             },
-            _ => answer(403, "text/plain", "the address lacks its token\n".into()),
+            _ => answer(403, "text/plain", "the URL lacks its token\n".into()),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What the keys of joints, springs, loads, inputs, read-outs and geometry mean and take.
+//! Meaning and type of the keys of joints, springs, loads, inputs, read-outs and geometry.
 //!
 //! `key => schema, meaning, default`.
 
@@ -10,11 +10,11 @@ use super::inner::{kinds, limits, orientation, within};
 use super::values::Range::{Any, NotNegative, Positive};
 use super::values::{Key, any, array, choice, halves, heading, name, number, numbers, place};
 
-/// What joints are made of.
+/// The elements of joints.
 pub(super) fn realisation() -> Key {
     Key(
         choice(&Realisation::ALL.map(Realisation::name)),
-        "What joints are made of: TSDAs, or bushings without a length, as stiff at the pose of assembly",
+        "Elements of the joints: TSDAs, or bushings without length and of the same stiffness at the assembly pose",
         "tsda",
     )
 }
@@ -27,10 +27,14 @@ pub(super) fn of_spring(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "",
         ),
         "damping" => Key(number(NotNegative), "N·s/m (about an axis N·m·s/rad), ≥ 0", "0"),
-        "damping_ratio" => {
-            Key(number(NotNegative), "≥ 0, in place of `damping`: the ratio at `frequency`", "")
+        "damping_ratio" => Key(
+            number(NotNegative),
+            "≥ 0, instead of `damping`: the damping ratio at `frequency`",
+            "",
+        ),
+        "frequency" => {
+            Key(number(Positive), "Hz, > 0: the frequency at which `damping_ratio` applies", "")
         }
-        "frequency" => Key(number(Positive), "Hz, > 0: where `damping_ratio` holds", ""),
         "clearance" => Key(number(NotNegative), "m, ≥ 0: a dead band about the free length", "0"),
         _ => return None,
     })
@@ -50,8 +54,8 @@ pub(super) fn of_joint(key: &str, tables: &[TableKeys]) -> Option<Key> {
         halves(value, keys.map_or(&[], |known| &known.keys))
     };
     Some(match key {
-        "name" => Key(name(), "A name of its own among joints and elements", ""),
-        "type" => Key(kinds("joint", tables), "What it lets move", ""),
+        "name" => Key(name(), "A name, unique among joints and elements", ""),
+        "type" => Key(kinds("joint", tables), "Type of the joint: the motions that it allows", ""),
         "between" => between(),
         "at" => Key(
             halved(&place()),
@@ -60,7 +64,7 @@ pub(super) fn of_joint(key: &str, tables: &[TableKeys]) -> Option<Key> {
         ),
         "axis" => Key(
             halved(&heading()),
-            "[x, y, z] of any length but 0, world; or two points, from the first to the second",
+            "[x, y, z] of nonzero length, world; or two points, from the first to the second",
             "",
         ),
         "axes" => Key(
@@ -78,30 +82,30 @@ pub(super) fn of_joint(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "[x, y, z], not along the axis: azimuth 0, made normal to the axis",
             "the world axis least aligned with the axis",
         ),
-        "span" => Key(number(Positive), "m, > 0: how far its points lie apart along the axis", ""),
+        "span" => Key(number(Positive), "m, > 0: distance of its points along the axis", ""),
         "ring" => Key(number(Positive), "m, > 0: radius of the ring of points", "span/√2"),
         "arm" => Key(number(Positive), "m, > 0: length of its elements", ""),
         "offset" => Key(number(Positive), "m, > 0: distance of the points from their line", ""),
         "gauge" => Key(number(Positive), "m, > 0: distance of the two lines", ""),
         "offsets" => Key(
             choice(&["alike", "outward"]),
-            "Whether points stand off their lines to the same sides or away from the other line",
+            "Whether the points are offset from their lines to the same side or away from the other line",
             "alike",
         ),
         "realisation" => realisation(),
         "limits" | "turn_limits" | "slide_limits" => Key(
             limits(tables),
-            "Ends of its angle or travel: { from = …, to = …, stiffness = … }",
+            "Limits of its angle or travel: { from = …, to = …, stiffness = … }",
             "none",
         ),
         "friction" | "turn_friction" | "slide_friction" => Key(
             within("friction", tables, &["coulomb"]),
-            "Dry friction that sticks: { coulomb = …, breakaway = … }",
+            "Dry friction with stiction: { coulomb = …, breakaway = … }",
             "none",
         ),
         "rotor" | "turn_rotor" | "slide_rotor" => Key(
             within("rotor", tables, &["inertia", "stiffness"]),
-            "A rotor that nothing drives, behind a gear that gives: { inertia = …, stiffness = … }",
+            "An undriven rotor behind an elastic gear: { inertia = …, stiffness = … }",
             "none",
         ),
         _ => return None,
@@ -110,77 +114,77 @@ pub(super) fn of_joint(key: &str, tables: &[TableKeys]) -> Option<Key> {
 
 pub(super) fn of_tsda(key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
-        "name" => Key(name(), "A name of its own among joints and elements", "none"),
+        "name" => Key(name(), "A name, unique among joints and elements", "none"),
         "between" => between(),
         "points" => Key(
             array(place(), 2),
-            "[[x, y, z], [x, y, z]] m: a point of each body in its axes from its centre of mass (of the world in the \
-             world), or names of points",
+            "[[x, y, z], [x, y, z]] m: a point of each body, in body axes from the centre of mass (for the world \
+             in world coordinates), or names of points",
             "",
         ),
         "free_length" => {
-            Key(number(NotNegative), "m, ≥ 0, or \"initial\": as long as it is at t = 0", "")
+            Key(number(NotNegative), "m, ≥ 0, or \"initial\": the length at t = 0", "")
         }
-        "limits" => Key(limits(tables), "Stops of its length, in m", "none"),
+        "limits" => Key(limits(tables), "Limits of its length, in m", "none"),
         _ => return None,
     })
 }
 
 pub(super) fn of_line(key: &str) -> Option<Key> {
     Some(match key {
-        "name" => Key(name(), "A name of its own among joints and elements", "none"),
+        "name" => Key(name(), "A name, unique among joints and elements", "none"),
         "between" => Key(
             array(name(), 2),
-            "[first, second]: the first body owns the line, the second the point; one may be \"world\"",
+            "[first, second]: the first body has the line, the second the point; one may be \"world\"",
             "",
         ),
         "line_point" => {
             Key(place(), "A point of the line: [x, y, z] m in the first body's axes, or a name", "")
         }
         "line_direction" => {
-            Key(numbers(3, Any), "[x, y, z] of any length but 0, in the first body's axes", "")
+            Key(numbers(3, Any), "[x, y, z] of nonzero length, in the first body's axes", "")
         }
         "point" => Key(place(), "The point: [x, y, z] m in the second body's axes, or a name", ""),
-        "free_length" => Key(number(NotNegative), "m, ≥ 0: distance from the line at rest", ""),
+        "free_length" => Key(number(NotNegative), "m, ≥ 0: free distance from the line", ""),
         _ => return None,
     })
 }
 
 pub(super) fn of_torsion(key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
-        "name" => Key(name(), "A name of its own among joints and elements", "none"),
+        "name" => Key(name(), "A name, unique among joints and elements", "none"),
         "between" => between(),
         "axis" => Key(heading(), "[x, y, z] or two points, world; fixed in the first body", ""),
-        "preload" => Key(number(Any), "N·m: torque on the second body at twist 0", "0"),
-        "limits" => Key(limits(tables), "Stops of its twist, in rad", "none"),
+        "preload" => Key(number(Any), "N·m: torque on the second body at torsion angle 0", "0"),
+        "limits" => Key(limits(tables), "Limits of its torsion angle, in rad", "none"),
         _ => return None,
     })
 }
 
 pub(super) fn of_load(key: &str) -> Option<Key> {
     Some(match key {
-        "body" => Key(name(), "The body that it acts on, not the world", ""),
+        "body" => Key(name(), "The loaded body, not the world", ""),
         "force" => Key(numbers(3, Any), "[x, y, z] N at the centre of mass", "0"),
         "torque" => Key(numbers(3, Any), "[x, y, z] N·m", "0"),
-        "frame" => Key(choice(&["world", "body"]), "The axes of force and torque", "world"),
-        "from" => Key(number(Any), "s: it acts from then on", "0"),
-        "until" => Key(number(Any), "s, > `from`: it acts until just before", "without end"),
+        "frame" => Key(choice(&["world", "body"]), "The frame of force and torque", "world"),
+        "from" => Key(number(Any), "s: start of the load", "0"),
+        "until" => Key(number(Any), "s, > `from`: end of the load, exclusive", "without end"),
         _ => return None,
     })
 }
 
 pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
-        "name" => Key(name(), "A name of its own among inputs", ""),
+        "name" => Key(name(), "A name, unique among inputs", ""),
         "type" => Key(
             kinds("input", tables),
-            "What it drives, in N, N·m, m or the unit of a drive's mode",
+            "The driven quantity, in N, N·m, m or the unit of a drive's mode",
             "",
         ),
         "value" => Key(number(Any), "The value at t = 0, held until the caller sets it", "0"),
         "range" => Key(
             numbers(2, Any),
-            "[least, largest] value that the caller can set: what is beyond is set to the nearer one",
+            "[least, largest] value that the caller can set: values outside are clamped",
             "none",
         ),
         "table" => Key(
@@ -190,17 +194,17 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
         ),
         "periodic" => Key(
             json!({ "type": "boolean" }),
-            "Whether the table repeats; its last time is the end of the period, its last value the first",
+            "Whether the table repeats; its last time is the end of the period, its last value equals the first",
             "false",
         ),
         "jump" => Key(
             json!({ "type": "boolean" }),
-            "Whether a periodic table may end at another value than it begins with",
+            "Whether a periodic table may end at a different value than its first",
             "false",
         ),
         "over" => Key(
             name(),
-            "The column of a read-out that the table stands over instead of time: \"angle\", \"tip.x\"",
+            "The read-out column that is the table's argument instead of time: \"angle\", \"tip.x\"",
             "time",
         ),
         "sine" => Key(
@@ -209,32 +213,34 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "none",
         ),
         "interpolate" => {
-            Key(choice(&["held", "linear"]), "How a table goes on between its times", "held")
+            Key(choice(&["held", "linear"]), "Interpolation of the table between its times", "held")
         }
-        "body" => Key(name(), "The body that it acts on", ""),
+        "body" => Key(name(), "The loaded body", ""),
         "point" => Key(
             place(),
-            "Where it acts: [x, y, z] m in the body's axes, or a point",
+            "Point of application: [x, y, z] m in the body's axes, or a point",
             "the centre of mass",
         ),
-        "axis" => Key(numbers(3, Any), "[x, y, z] of any length but 0: along or about it", ""),
-        "frame" => Key(choice(&["world", "body"]), "The axes of `axis`", "world"),
+        "axis" => Key(numbers(3, Any), "[x, y, z] of nonzero length: the direction or axis", ""),
+        "frame" => Key(choice(&["world", "body"]), "The frame of `axis`", "world"),
         "target" => Key(
             any(&[name(), json!({ "type": "array", "items": name(), "minItems": 1 })]),
-            "The name of what it drives: a joint, a tsda, a torsion spring; of an anchor also several in an array",
+            "The name of the driven joint, tsda or torsion spring; for an anchor also an array of several",
             "",
         ),
         "about" => Key(choice(&["first", "second"]), "Which axis of a universal joint", ""),
         "freedom" => Key(choice(&["turn", "slide"]), "Which motion of a cylindrical joint", ""),
         "mode" => Key(
             choice(&["position", "velocity", "torque", "force", "current", "voltage"]),
-            "What the input of a drive is: rad or m, rad/s or m/s, N·m or N, A, V",
+            "The quantity of a drive's input: rad or m, rad/s or m/s, N·m or N, A, V",
             "",
         ),
-        "kp" => Key(number(NotNegative), "N·m/rad or N/m: stiffness of a servo of position", ""),
+        "kp" => Key(number(NotNegative), "N·m/rad or N/m: stiffness of a position servo", ""),
         "kd" => Key(number(Positive), "N·m·s/rad or N·s/m, > 0: damping of a servo", ""),
-        "most" => Key(number(Positive), "N·m or N, > 0: the most that drives the joint", "none"),
-        "lag" => Key(number(NotNegative), "s: time constant with which what drives follows", "0"),
+        "most" => {
+            Key(number(Positive), "N·m or N, > 0: largest torque or force at the joint", "none")
+        }
+        "lag" => Key(number(NotNegative), "s: time constant of the actuator", "0"),
         "winding" => Key(
             within("winding", tables, &["constant"]),
             "Of a motor: { resistance = ohm, inductance = H, constant = N·m/A, most_current = A }",
@@ -245,11 +251,9 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "kg·m², > 0: inertia of the motor's shaft; along a slide without a `ratio` kg",
             "none",
         ),
-        "ratio" => Key(
-            number(Any),
-            "Turns of the rotor per turn of the joint, not 0; along a slide rad/m",
-            "1",
-        ),
+        "ratio" => {
+            Key(number(Any), "Gear ratio, rotor over joint, not 0; along a slide rad/m", "1")
+        }
         "gear" => Key(
             within("gear", tables, &["stiffness"]),
             "Between rotor and joint: { stiffness = …, damping = …, play = … }",
@@ -261,21 +265,21 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
 
 pub(super) fn of_readout(key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
-        "name" => Key(name(), "A name of its own among read-outs: it heads a column", ""),
-        "type" => Key(kinds("readout", tables), "What it shows", ""),
-        "body" => Key(name(), "The body that it looks at", ""),
-        "point" => {
-            Key(place(), "Where: [x, y, z] m in the body's axes, or a point", "the centre of mass")
-        }
-        "target" => Key(
-            name(),
-            "The joint, tsda, torsion spring, interaction or input that it looks at",
-            "",
+        "name" => Key(name(), "A name, unique among read-outs: the heading of its columns", ""),
+        "type" => Key(kinds("readout", tables), "Type of the read-out", ""),
+        "body" => Key(name(), "The observed body", ""),
+        "point" => Key(
+            place(),
+            "Observed point: [x, y, z] m in the body's axes, or a point",
+            "the centre of mass",
         ),
-        "axis" => Key(numbers(3, Any), "[x, y, z]: of a spherical joint, world at t = 0", ""),
+        "target" => {
+            Key(name(), "The observed joint, tsda, torsion spring, interaction or input", "")
+        }
+        "axis" => Key(numbers(3, Any), "[x, y, z]: axis of a spherical joint, world at t = 0", ""),
         "about" => Key(choice(&["first", "second"]), "Which axis of a universal joint", ""),
-        "quantity" => Key(name(), "What it shows of an interaction: a quantity of its law", ""),
-        "offset" => Key(number(Any), "rad: what it shows at a turn of 0", "0"),
+        "quantity" => Key(name(), "For an interaction: a quantity of its law", ""),
+        "offset" => Key(number(Any), "rad: reading at a rotation of 0", "0"),
         _ => return None,
     })
 }
@@ -286,9 +290,9 @@ pub(super) fn of_geometry(key: &str, tables: &[TableKeys]) -> Option<Key> {
         json!({ "type": "string", "pattern": "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6})$" }),
     ]);
     Some(match key {
-        "body" => Key(name(), "The body that looks so, or \"world\" for the ground", ""),
-        "shape" => Key(kinds("geometry", tables), "What it is; a link has round ends", ""),
-        "colour" => Key(colour, "\"#rrggbb\", \"#rgb\" or a word", "that of the body"),
+        "body" => Key(name(), "The drawn body, or \"world\" for the ground", ""),
+        "shape" => Key(kinds("geometry", tables), "The shape; a link has round ends", ""),
+        "colour" => Key(colour, "\"#rrggbb\", \"#rgb\" or a colour name", "that of the body"),
         "at" => Key(
             place(),
             "[x, y, z] m in the body's axes from its centre of mass (of the ground in the world), or a point: its middle",
@@ -297,17 +301,17 @@ pub(super) fn of_geometry(key: &str, tables: &[TableKeys]) -> Option<Key> {
         "size" => Key(numbers(3, Positive), "[x, y, z] m, > 0: the sides of a box", ""),
         "orientation" => Key(
             orientation(tables),
-            "How a box is turned in the body: { axis, angle }, { quaternion } or { euler_321 }",
-            "not at all",
+            "Orientation of a box in the body: { axis, angle }, { quaternion } or { euler_321 }",
+            "no rotation",
         ),
         "from" => Key(place(), "Its first end: [x, y, z] m in the body's axes, or a point", ""),
         "to" => Key(place(), "Its second end, likewise", ""),
         "axis" => Key(
             numbers(3, Any),
-            "[x, y, z] in the body's axes: of a cylinder about `at`, with `length`",
+            "[x, y, z] in the body's axes: axis of a cylinder about `at`, with `length`",
             "",
         ),
-        "length" => Key(number(Positive), "m, > 0: of a cylinder along `axis`", ""),
+        "length" => Key(number(Positive), "m, > 0: length of a cylinder along `axis`", ""),
         "radius" => Key(number(Positive), "m, > 0; or `diameter`", ""),
         "diameter" => Key(number(Positive), "m, > 0; or `radius`", ""),
         _ => return None,

@@ -1,5 +1,5 @@
-//! What the keys of tables within tables mean and take: points, links, shapes, orientations, stiffnesses, spiders, rates, sines,
-//! limits, friction, gears, windings, terms of couplings.
+//! Meaning and type of the keys of nested tables: points, links, shapes, orientations, stiffnesses, spiders, rates,
+//! sines, limits, friction, gears, windings, terms of couplings.
 //!
 //! `(table, key) => schema`, and whole tables of them.
 
@@ -22,9 +22,11 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         "limits" => of_limits(key),
         "friction" => of_friction(key),
         "gear" => of_gear(key),
-        "rotor" if key == "inertia" => {
-            Some(Key(number(Positive), "kg·m² or kg, > 0: times the square of the ratio", ""))
-        }
+        "rotor" if key == "inertia" => Some(Key(
+            number(Positive),
+            "kg·m² or kg, > 0: rotor inertia times the square of the ratio",
+            "",
+        )),
         "rotor" => of_gear(key),
         "winding" => of_winding(key),
         "term" => of_term(key),
@@ -70,13 +72,13 @@ fn of_point(key: &str) -> Option<Key> {
     Some(match key {
         "from" => Key(
             any(&[name(), numbers(3, Any), array(place(), 2)]),
-            "The point, or the two points, that it is given from: names or [x, y, z]",
+            "The reference point or two reference points: names or [x, y, z]",
             "",
         ),
-        "offset" => Key(numbers(3, Any), "[x, y, z] m, world: from `from`", ""),
+        "offset" => Key(numbers(3, Any), "[x, y, z] m, world: offset from `from`", ""),
         "distance" => Key(number(Any), "m: from `from`", ""),
-        "direction" => Key(numbers(3, Any), "[x, y, z] of any length but 0, world", ""),
-        "toward" => Key(place(), "A point: the distance is on the way there", ""),
+        "direction" => Key(numbers(3, Any), "[x, y, z] of nonzero length, world", ""),
+        "toward" => Key(place(), "A point: the direction in which the distance is measured", ""),
         "angle" => Key(
             number(Any),
             "rad, or a text such as \"60 deg\": in the plane across `normal`, from `reference`; or about `axis`",
@@ -85,18 +87,22 @@ fn of_point(key: &str) -> Option<Key> {
         "normal" => Key(numbers(3, Any), "[x, y, z]: normal of the plane", "[0, 0, 1]"),
         "reference" => Key(
             numbers(3, Any),
-            "[x, y, z]: where the angle counts from",
+            "[x, y, z]: direction of angle 0",
             "the world axis least aligned with the normal",
         ),
-        "share" => Key(number(Any), "Share of the way from the first point to the second", ""),
-        "distances" => Key(numbers(2, Positive), "[a, b] m, > 0: from the two points", ""),
+        "share" => {
+            Key(number(Any), "Fraction of the distance from the first point to the second", "")
+        }
+        "distances" => {
+            Key(numbers(2, Positive), "[a, b] m, > 0: distances from the two points", "")
+        }
         "side" => Key(
             choice(&["left", "right"]),
             "The side of the line from the first to the second, seen against `normal`",
             "",
         ),
-        "about" => Key(place(), "A point of the axis that it is turned about", "the origin"),
-        "axis" => Key(numbers(3, Any), "[x, y, z]: the axis that it is turned about", ""),
+        "about" => Key(place(), "A point of the rotation axis", "the origin"),
+        "axis" => Key(numbers(3, Any), "[x, y, z]: the rotation axis", ""),
         "frame" => Key(
             any(&[name(), array(place(), 3)]),
             "A body, or three points: origin, one on the x axis, one in the plane of x and y",
@@ -109,50 +115,54 @@ fn of_point(key: &str) -> Option<Key> {
 
 fn of_shape(table: &str, key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
-        "type" => Key(kinds("shape", tables), "What it is, uniform", ""),
-        "shape" => Key(kinds("link", tables), "What it is, uniform, as long as the link", "rod"),
-        "from" => Key(place(), "The point at which it begins, an end of the body", ""),
-        "to" => Key(place(), "The point at which it ends, an end of the body", ""),
+        "type" => Key(kinds("shape", tables), "A uniform shape", ""),
+        "shape" => Key(kinds("link", tables), "A uniform shape of the link's length", "rod"),
+        "from" => Key(place(), "The start point, one end of the body", ""),
+        "to" => Key(place(), "The end point, the other end of the body", ""),
         "along" => Key(
             choice(&["x", "y", "z"]),
-            "The body's axis that points along it, from the first point to the second",
+            "The body axis along the link, from the first point to the second",
             "x",
         ),
         "reference" => Key(
             numbers(3, Any),
-            "[x, y, z], not along the link: the next axis of the body lies on its side",
+            "[x, y, z], not along the link: the side on which the body's next axis lies",
             "the shortest turn",
         ),
-        "centre" => Key(number(Any), "Share of the way at which the centre of mass lies", "0.5"),
+        "centre" => {
+            Key(number(Any), "Position of the centre of mass as a fraction of the length", "0.5")
+        }
         "length" if table == "link" => Key(
             number(Positive),
-            "m, > 0: its own length where that is not the distance of its points; only with [assemble]",
+            "m, > 0: length if it differs from the distance of its points; only with [assemble]",
             "the distance of its points",
         ),
-        "length" => Key(number(Positive), "m, > 0: along its axis; not of a sphere", ""),
+        "length" => Key(number(Positive), "m, > 0: length along its axis; not for a sphere", ""),
         "mass" => Key(number(Positive), "kg, > 0", "of `density`"),
         "density" => Key(number(Positive), "kg/m³, > 0", "of `mass`"),
         "diameter" => Key(
             number(Positive),
-            "m, > 0: of a rod, cylinder, tube (outer) or sphere",
+            "m, > 0: diameter of a rod, cylinder, tube (outer) or sphere",
             "a rod without it is slender",
         ),
-        "inner_diameter" => Key(number(Positive), "m, > 0: of a tube or a hollow sphere", ""),
+        "inner_diameter" => {
+            Key(number(Positive), "m, > 0: inner diameter of a tube or a hollow sphere", "")
+        }
         "wall" => Key(number(Positive), "m, > 0: thickness of a tube's wall", ""),
-        "section" => Key(numbers(2, Positive), "[a, b] m: of a box, along the next axes", ""),
-        "width" => Key(number(Positive), "m, > 0: of a plate, along the next axis", ""),
-        "thickness" => Key(number(Positive), "m, > 0: of a plate, along the last axis", "0"),
+        "section" => Key(numbers(2, Positive), "[a, b] m: sides of a box, along the next axes", ""),
+        "width" => Key(number(Positive), "m, > 0: width of a plate, along the next axis", ""),
+        "thickness" => {
+            Key(number(Positive), "m, > 0: thickness of a plate, along the last axis", "0")
+        }
         _ => return None,
     })
 }
 
 fn of_orientation(key: &str) -> Option<Key> {
     Some(match key {
-        "axis" => Key(numbers(3, Any), "[x, y, z] of any length but 0, with `angle`", ""),
+        "axis" => Key(numbers(3, Any), "[x, y, z] of nonzero length, with `angle`", ""),
         "angle" => Key(number(Any), "rad, or a text such as \"30 deg\": about `axis`", ""),
-        "quaternion" => {
-            Key(numbers(4, Any), "[w, x, y, z], scalar first, brought to unit length", "")
-        }
+        "quaternion" => Key(numbers(4, Any), "[w, x, y, z], scalar first, normalised", ""),
         "euler_321" => Key(
             numbers(3, Any),
             "[yaw, pitch, roll] rad: about z, then the new y, then the new x",
@@ -165,7 +175,9 @@ fn of_orientation(key: &str) -> Option<Key> {
 fn of_stiffness(key: &str) -> Option<Key> {
     Some(match key {
         "load" => Key(number(Positive), "N (about an axis N·m), > 0", ""),
-        "deflection" => Key(number(Positive), "m (about an axis rad), > 0: under the load", ""),
+        "deflection" => {
+            Key(number(Positive), "m (about an axis rad), > 0: deflection under the load", "")
+        }
         _ => return None,
     })
 }
@@ -185,8 +197,8 @@ fn of_limits(key: &str) -> Option<Key> {
     Some(match key {
         "from" => Key(number(Any), "rad (\"-30 deg\") or m: lower end", "none"),
         "to" => Key(number(Any), "rad or m: upper end", "none"),
-        "offset" => Key(number(Any), "rad or m: the angle or the travel at t = 0", "0"),
-        "stiffness" => Key(number(Positive), "N·m/rad or N/m, > 0: beyond an end", ""),
+        "offset" => Key(number(Any), "rad or m: angle or travel at t = 0", "0"),
+        "stiffness" => Key(number(Positive), "N·m/rad or N/m, > 0: stiffness beyond a limit", ""),
         "dissipation" => Key(
             number(NotNegative),
             "s/rad or s/m: coefficient a of stiffness · depth · (1 + a · rate of the depth)",
@@ -194,11 +206,11 @@ fn of_limits(key: &str) -> Option<Key> {
         ),
         "restitution" => Key(
             number(Positive),
-            "In place of `dissipation`: speed after an impact over speed before it, in (0, 1]",
+            "Instead of `dissipation`: ratio of the speeds after and before an impact, in (0, 1]",
             "",
         ),
         "speed" => {
-            Key(number(Positive), "rad/s or m/s: of the impact that `restitution` is of", "")
+            Key(number(Positive), "rad/s or m/s: impact speed at which `restitution` applies", "")
         }
         _ => return None,
     })
@@ -206,11 +218,13 @@ fn of_limits(key: &str) -> Option<Key> {
 
 fn of_friction(key: &str) -> Option<Key> {
     Some(match key {
-        "coulomb" => Key(number(NotNegative), "N·m or N: while it slides fast", ""),
-        "breakaway" => Key(number(Positive), "N·m or N: to begin sliding", "`coulomb`"),
+        "coulomb" => Key(number(NotNegative), "N·m or N: friction during fast sliding", ""),
+        "breakaway" => {
+            Key(number(Positive), "N·m or N: friction at the onset of sliding", "`coulomb`")
+        }
         "stribeck" => Key(
             number(Positive),
-            "rad/s or m/s: rate at which friction is midway between the two",
+            "rad/s or m/s: sliding rate at which friction is midway between the two",
             "0.05 rad/s, 0.01 m/s",
         ),
         "give" => Key(
@@ -220,19 +234,21 @@ fn of_friction(key: &str) -> Option<Key> {
         ),
         "damping" => Key(
             number(NotNegative),
-            "N·m·s/rad or N·s/m: of the elastic part",
+            "N·m·s/rad or N·s/m: damping of the elastic part",
             "half of critical for its two bodies, each free",
         ),
-        "viscous" => Key(number(NotNegative), "N·m·s/rad or N·s/m: while it slides", "0"),
+        "viscous" => {
+            Key(number(NotNegative), "N·m·s/rad or N·s/m: viscous coefficient during sliding", "0")
+        }
         _ => return None,
     })
 }
 
 fn of_gear(key: &str) -> Option<Key> {
     Some(match key {
-        "stiffness" => Key(number(Positive), "N·m/rad or N/m, > 0: at the joint", ""),
-        "damping" => Key(number(NotNegative), "N·m·s/rad or N·s/m: at the joint", "0"),
-        "play" => Key(number(NotNegative), "rad or m at the joint, from flank to flank", "0"),
+        "stiffness" => Key(number(Positive), "N·m/rad or N/m, > 0: stiffness at the joint", ""),
+        "damping" => Key(number(NotNegative), "N·m·s/rad or N·s/m: damping at the joint", "0"),
+        "play" => Key(number(NotNegative), "rad or m at the joint: play, from flank to flank", "0"),
         _ => return None,
     })
 }
@@ -243,17 +259,19 @@ pub(super) fn of_coupling(key: &str, tables: &[TableKeys]) -> Option<Key> {
         "type": "array", "items": within("term", tables, &["joint"]), "minItems": 1, "maxItems": 3,
     });
     Some(match key {
-        "name" => Key(name(), "A name of its own among joints and elements", "none"),
-        "of" => Key(terms, "Joints and the factors by which their coordinates enter the sum", ""),
-        "offset" => Key(number(Any), "rad or m, as the first joint: the sum at rest", "0"),
+        "name" => Key(name(), "A name, unique among joints and elements", "none"),
+        "of" => Key(terms, "Joints with the factors of their coordinates in the sum", ""),
+        "offset" => {
+            Key(number(Any), "rad or m, as the first joint: the free value of the sum", "0")
+        }
         "stiffness" => Key(number(Positive), "N·m/rad or N/m, > 0: tension per sum", ""),
         "damping" => {
             Key(number(NotNegative), "N·m·s/rad or N·s/m: tension per rate of the sum", "0")
         }
-        "play" => Key(number(NotNegative), "rad or m of the sum, from flank to flank", "0"),
+        "play" => Key(number(NotNegative), "rad or m of the sum: play, from flank to flank", "0"),
         "acts" => Key(
             choice(&["tension", "compression"]),
-            "Where it acts: on a sum above the offset alone, as a tendon, or below it alone",
+            "Side on which it acts: only on sums above the offset, as a tendon, or only below it",
             "both",
         ),
         _ => return None,
@@ -263,10 +281,10 @@ pub(super) fn of_coupling(key: &str, tables: &[TableKeys]) -> Option<Key> {
 fn of_term(key: &str) -> Option<Key> {
     Some(match key {
         "joint" => Key(name(), "A revolute, translational or cylindrical joint", ""),
-        "freedom" => Key(choice(&["turn", "slide"]), "Of a cylindrical joint: which", ""),
+        "freedom" => Key(choice(&["turn", "slide"]), "Which coordinate of a cylindrical joint", ""),
         "factor" => Key(
             number(Any),
-            "Not 0: sum per coordinate, in rad/m of a travel in a sum of turns, in m/rad of a turn in a sum of travels",
+            "Not 0: sum per coordinate, in rad/m for a travel in a sum of rotations, in m/rad for a rotation in a sum of travels",
             "1 of the first joint",
         ),
         _ => return None,
@@ -275,10 +293,10 @@ fn of_term(key: &str) -> Option<Key> {
 
 fn of_winding(key: &str) -> Option<Key> {
     Some(match key {
-        "resistance" => Key(number(Positive), "ohm, > 0; not of the mode \"current\"", ""),
-        "inductance" => Key(number(NotNegative), "H; not of the mode \"current\"", "0"),
+        "resistance" => Key(number(Positive), "ohm, > 0; not for the mode \"current\"", ""),
+        "inductance" => Key(number(NotNegative), "H; not for the mode \"current\"", "0"),
         "constant" => Key(number(Any), "N·m/A, not 0: torque of the motor's shaft per current", ""),
-        "most_current" => Key(number(Positive), "A, > 0: the most that drives the joint", "none"),
+        "most_current" => Key(number(Positive), "A, > 0: largest current", "none"),
         _ => return None,
     })
 }

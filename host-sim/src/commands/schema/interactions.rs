@@ -1,7 +1,7 @@
 //! What the keys of interactions mean and take, by the laws that this program knows.
 //!
-//! `key => schema`. Several laws may have a key of one name; its description then states each. A law of another name is
-//! one of another program: any keys go with it.
+//! `key => schema`. Several laws may have a key of one name; its description then states each. A law of another name
+//! belongs to another program: it allows any keys.
 
 use dbd_kernel::laws::Field;
 use dbd_plant::digits::significant;
@@ -15,7 +15,7 @@ use super::values::{Key, any, array, heading, name, number, numbers, place};
 /// The schema of a key; `None` of one that no law has.
 pub(super) fn schema(key: &str) -> Option<Value> {
     let found = match key {
-        "name" => Key(name(), "A name of its own among joints and elements", "none"),
+        "name" => Key(name(), "A name, unique among joints and elements", "none"),
         "law" => return Some(law()),
         "between" => between(),
         _ => return constant(key),
@@ -23,7 +23,7 @@ pub(super) fn schema(key: &str) -> Option<Value> {
     Some(found.schema())
 }
 
-/// The keys that a law must have beside those of all.
+/// The required keys of a law besides the common ones.
 pub(super) fn required(law: &str) -> Vec<&'static str> {
     let fields = known_laws().into_iter().find(|known| known.name == law).map(|law| law.fields);
     let needed = fields.unwrap_or_default().iter().filter(|field| field.default.is_none());
@@ -36,7 +36,7 @@ fn law() -> Value {
     let mut laws: Vec<Value> = laws.map(|law| one(law.name, law.about)).collect();
     laws.push(json!({ "type": "string", "minLength": 1 }));
     let mut schema = any(&laws);
-    schema["description"] = json!("The law: what it does to the two bodies.");
+    schema["description"] = json!("The law between the two bodies.");
     schema
 }
 
@@ -70,7 +70,7 @@ fn of_kind(field: &Field) -> Value {
     }
 }
 
-/// Its units, what it is, its default.
+/// Its units, meaning and default.
 fn meaning(field: &Field) -> String {
     let units = match field.kind {
         "points" => {

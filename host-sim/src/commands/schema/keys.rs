@@ -1,6 +1,6 @@
-//! What each key of a scene means and takes: the words that an editor shows beside it.
+//! Meaning and type of each key of a scene, as shown by editors.
 //!
-//! `(table, key) => schema with description and default`. Which keys there are says the reader, [`dbd_scene::vocabulary`].
+//! `(table, key) => schema with description and default`. The keys come from the reader, [`dbd_scene::vocabulary`].
 
 use dbd_scene::vocabulary::TableKeys;
 use serde_json::{Value, json};
@@ -39,7 +39,7 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
 fn of_scene(key: &str) -> Option<Key> {
     Some(match key {
         "name" => Key(name(), "The scene's name", ""),
-        "description" => Key(json!({ "type": "string" }), "What it is, free text", "empty"),
+        "description" => Key(json!({ "type": "string" }), "Free text", "empty"),
         "gravity" => Key(numbers(3, Any), "[x, y, z] m/s², world: the field of gravity", "none"),
         "duration" => Key(number(Positive), "s, > 0: simulated time, as 0.5 or \"500 ms\"", ""),
         "step" => Key(number(Positive), "s, > 0: the step, as \"20us\"", "chosen by the run"),
@@ -47,12 +47,12 @@ fn of_scene(key: &str) -> Option<Key> {
         "realisation" => realisation(),
         "planar" => Key(
             json!({ "type": "boolean" }),
-            "Whether it runs in its plane, with three freedoms per body; refused where anything leaves it",
+            "Whether it runs in its plane, with three degrees of freedom per body; an error if the scene is not planar",
             "false",
         ),
         "settle" => Key(
             json!({ "type": "boolean" }),
-            "Whether it starts at rest in the static equilibrium under its loads that is downhill of its poses",
+            "Whether it starts at rest in the static equilibrium reached from its poses at decreasing potential energy",
             "false",
         ),
         _ => return None,
@@ -70,12 +70,12 @@ fn of_assemble(key: &str, tables: &[TableKeys]) -> Option<Key> {
     Some(match key {
         "fixed" => Key(
             json!({ "type": "array", "items": name() }),
-            "Names of bodies that are not moved, as the world is not",
+            "Names of bodies that stay fixed, as the world does",
             "none",
         ),
         "angles" => Key(
             json!({ "type": "object", "additionalProperties": number(Any) }),
-            "Angles at t = 0 by joint, rad from the poses as written: of revolute and cylindrical joints",
+            "Angles of revolute and cylindrical joints at t = 0, rad from the poses as written",
             "none",
         ),
         "rates" => Key(
@@ -86,13 +86,13 @@ fn of_assemble(key: &str, tables: &[TableKeys]) -> Option<Key> {
         ),
         "length" => Key(
             number(Positive),
-            "m, > 0: the length at which a turn by a radian counts as a shift by a metre",
-            "the distance of joints from centres of mass, root mean square",
+            "m, > 0: the length at which a rotation by one radian counts as a translation by one metre",
+            "root-mean-square distance of joints from centres of mass",
         ),
-        "tolerance" => Key(number(Positive), "m, > 0: by how much a joint may stay open", "1e-9"),
+        "tolerance" => Key(number(Positive), "m, > 0: largest remaining gap of a joint", "1e-9"),
         "iterations" => Key(
             json!({ "type": "integer", "minimum": 1 }),
-            "A whole number > 0: most steps for bodies that hang together",
+            "A whole number > 0: largest number of steps for connected bodies",
             "200",
         ),
         _ => return None,
@@ -102,7 +102,7 @@ fn of_assemble(key: &str, tables: &[TableKeys]) -> Option<Key> {
 fn of_body(key: &str, tables: &[TableKeys]) -> Option<Key> {
     let tensor = array(numbers(3, Any), 3);
     Some(match key {
-        "name" => Key(name(), "A name of its own, not `world`", ""),
+        "name" => Key(name(), "A unique name, not `world`", ""),
         "mass" => Key(number(Positive), "kg, > 0", "that of its link or shape"),
         "inertia" => Key(
             any(&[numbers(3, Positive), tensor]),
@@ -122,14 +122,12 @@ fn of_body(key: &str, tables: &[TableKeys]) -> Option<Key> {
         ),
         "velocity" => Key(numbers(3, Any), "[x, y, z] m/s: centre of mass, world", "0"),
         "angular_velocity" => Key(numbers(3, Any), "[x, y, z] rad/s, body axes", "0"),
-        "frame" => Key(
-            name(),
-            "The body from which position, orientation and velocities are seen",
-            "the world",
-        ),
+        "frame" => {
+            Key(name(), "The reference body of position, orientation and velocities", "the world")
+        }
         "link" => Key(
             within("link", tables, &[]),
-            "The two points between which the body lies, and what it is made of",
+            "The two end points of the body, and its shape and material",
             "none",
         ),
         "shape" => Key(

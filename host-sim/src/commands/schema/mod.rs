@@ -1,8 +1,8 @@
 //! `host-sim schema`: the JSON Schema of scene files, from which editors complete keys and show what they mean.
 //!
-//! `() => schema`. Which tables and keys there are says the reader itself ([`dbd_scene::vocabulary`]), what they mean
-//! `keys.rs`, `elements.rs` and `inner.rs`. Keys that must be there are asked for where the scene has no `[defaults]`, which may give
-//! them.
+//! `() => schema`. The tables and keys come from the reader itself ([`dbd_scene::vocabulary`]), their meanings from
+//! `keys.rs`, `elements.rs` and `inner.rs`. Required keys are enforced only if the scene has no `[defaults]`, which may
+//! provide them.
 
 mod elements;
 mod inner;
@@ -16,17 +16,17 @@ use serde_json::{Map, Value, json};
 use crate::terminal::text::json as text_of;
 use values::{any, number, object, place};
 
-/// What the file is called that stands beside a scene.
+/// The name of the schema file next to a scene.
 pub const FILE: &str = "scene.schema.json";
 
-/// The title by which a file is known as ours.
+/// The title that identifies a schema of this program.
 pub const TITLE: &str = "DBD scene";
 
 /// The schema as the text of a file.
 #[must_use]
 pub fn text() -> String {
     let mut schema = schema();
-    // One order, whatever another crate has asked of this one's maps.
+    // A fixed order, independent of map features that other crates enable.
     schema.sort_all_objects();
     text_of(&schema)
 }
@@ -34,25 +34,19 @@ pub fn text() -> String {
 /// Tables of which there are many, and what one of them is.
 const MANY: [(&str, &str); 11] = [
     ("body", "A rigid body: mass, inertia, pose and velocity at t = 0"),
-    ("joint", "A joint, made of springs and dampers"),
+    ("joint", "A joint of springs and dampers"),
     ("tsda", "A spring and damper between two points"),
-    ("point_on_line", "A point of one body held to a line of another"),
+    ("point_on_line", "A point of one body, constrained to a line of another"),
     ("torsion_spring", "A spring and damper about an axis"),
-    (
-        "interaction",
-        "What two bodies do to each other by a law: a stop, friction, or one of a program's own",
-    ),
-    (
-        "coupling",
-        "A sum of coordinates of joints that a spring holds: gears, a rack, a belt, a differential",
-    ),
-    ("load", "A constant force or torque over a window of time"),
-    ("input", "What a controller or a table drives at run time"),
-    ("readout", "What a sensor sees"),
-    ("geometry", "What a body or the ground looks like; only pictures use it"),
+    ("interaction", "An interaction of two bodies by a law: a stop, friction, or a custom law"),
+    ("coupling", "A spring on a sum of joint coordinates: gears, a rack, a belt, a differential"),
+    ("load", "A constant force or torque over a time window"),
+    ("input", "An input, driven by a controller or a table at run time"),
+    ("readout", "A sensor"),
+    ("geometry", "The appearance of a body or the ground, for pictures only"),
 ];
 
-/// What must be there of a table, of whichever type.
+/// Required keys of a table, for all types.
 fn required(table: &str) -> &'static [&'static str] {
     match table {
         "joint" => &["type", "between", "stiffness"],
@@ -70,7 +64,7 @@ fn required(table: &str) -> &'static [&'static str] {
     }
 }
 
-/// What must be there of a table of a type besides.
+/// Further required keys of a table of a given type.
 fn required_of(table: &str, kind: &str) -> Vec<&'static str> {
     let keys: &[&str] = match (table, kind) {
         ("joint", "spherical") => &["at", "arm"],
@@ -103,7 +97,7 @@ fn required_of(table: &str, kind: &str) -> Vec<&'static str> {
     keys.into()
 }
 
-/// The key that says of which kind a table is.
+/// The key that selects the kind of a table.
 fn kind_key(table: &str) -> &'static str {
     match table {
         "link" | "geometry" => "shape",
@@ -147,7 +141,7 @@ fn schema() -> Value {
     })
 }
 
-/// All keys of a table of whichever kind.
+/// All keys of a table, for all kinds.
 fn keys_of(table: &str, tables: &[TableKeys]) -> Vec<&'static str> {
     let mut all: Vec<&'static str> = Vec::new();
     for key in tables.iter().filter(|known| known.table == table).flat_map(|known| &known.keys) {
@@ -169,7 +163,7 @@ fn one(table: &'static str, meaning: &str, tables: &[TableKeys]) -> Value {
     let mut schema = object(properties, named);
     schema["description"] = json!(format!("{meaning}."));
     if table == "interaction" {
-        // The keys of a law that only another program knows.
+        // The keys of a law of another program.
         schema["additionalProperties"] = json!(true);
     }
     let rules = own_keys(table, tables);
@@ -204,7 +198,7 @@ fn when(table: &str, kind: &str, then: Value) -> Value {
     json!({ "if": { "properties": { key: { "const": kind } }, "required": [key] }, "then": then })
 }
 
-/// What a table must have where there are no defaults.
+/// Required keys of a table without defaults.
 fn complete(table: &str, tables: &[TableKeys]) -> Value {
     let has = |key: &str| json!({ "required": [key] });
     let within = |key: &str, keys: &[&str]| {
@@ -271,8 +265,8 @@ fn complete(table: &str, tables: &[TableKeys]) -> Value {
 fn parameters() -> Value {
     json!({
         "type": "object",
-        "description": "Names for values that stand in the scene more than once: numbers, or texts with units and \
-            arithmetic that may name each other.",
+        "description": "Named values for repeated use in the scene: numbers, or texts with units and \
+            arithmetic that may refer to each other.",
         "additionalProperties": number(values::Range::Any),
     })
 }
@@ -281,7 +275,7 @@ fn points(tables: &[TableKeys]) -> Value {
     let form = inner::within("point", tables, &[]);
     json!({
         "type": "object",
-        "description": "Places in the world at the initial pose, by name: [x, y, z] m, or how they lie to others.",
+        "description": "Named points in the world at the initial pose: [x, y, z] m, or relative to other points.",
         "additionalProperties": any(&[place(), form]),
     })
 }
@@ -299,7 +293,7 @@ fn start(tables: &[TableKeys]) -> Value {
     let keys = keys.iter().filter_map(|key| Some((*key, keys::schema("body", key, tables)?)));
     json!({
         "type": "object",
-        "description": "States at t = 0 that are not those at which the joints are assembled, by body.",
+        "description": "States at t = 0 by body, if they differ from the assembled ones.",
         "additionalProperties": object(keys, &[]),
     })
 }
@@ -318,8 +312,7 @@ fn of_defaults(tables: &[TableKeys]) -> Value {
         (*kind, object(keys.iter().map(|key| (*key, like(key))), &[]))
     });
     let mut schema = object(all, &[]);
-    schema["description"] =
-        json!("Keys that each table of a kind has unless it gives its own, by kind.");
+    schema["description"] = json!("Default keys of the tables of each kind.");
     schema
 }
 
@@ -327,7 +320,7 @@ fn of_defaults(tables: &[TableKeys]) -> Value {
 mod tests {
     use super::*;
 
-    /// A key that the reader takes and nobody has described would be missing without a word.
+    /// Every key that the reader accepts is described.
     #[test]
     fn every_key_of_the_reader_is_described() {
         let tables = vocabulary();

@@ -1,11 +1,11 @@
-//! What values of a scene are, in JSON Schema: numbers with units or as texts, places, directions, names.
+//! Values of a scene in JSON Schema: numbers with units or as texts, points, directions, names.
 //!
-//! `(kind, meaning) => schema`. Whether a text is a value with a unit, a sum or a parameter's name only the reader can
-//! say.
+//! `(kind, meaning) => schema`. Only the reader can check whether a text is a value with a unit, a sum or a parameter's
+//! name.
 
 use serde_json::{Value, json};
 
-/// A key: what it takes, what it means, and its default in words.
+/// A key: its schema, its meaning, and its default as text.
 pub(super) struct Key(pub(super) Value, pub(super) &'static str, pub(super) &'static str);
 
 impl Key {
@@ -21,7 +21,7 @@ impl Key {
     }
 }
 
-/// Which numbers will do.
+/// The permitted numbers.
 #[derive(Clone, Copy)]
 pub(super) enum Range {
     Any,
@@ -40,12 +40,12 @@ pub(super) fn number(range: Range) -> Value {
     schema
 }
 
-/// So many numbers.
+/// A fixed number of numbers.
 pub(super) fn numbers(count: usize, range: Range) -> Value {
     array(number(range), count)
 }
 
-/// So many things of a kind.
+/// A fixed number of items of a kind.
 pub(super) fn array(items: Value, count: usize) -> Value {
     json!({ "type": "array", "items": items, "minItems": count, "maxItems": count })
 }

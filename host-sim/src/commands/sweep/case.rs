@@ -1,8 +1,8 @@
 //! Cases of a sweep: a scene with changes, run by a method, becomes a row.
 //!
-//! `(scene's text, changes, method) => samples => row`. A case that is refused or fails is a row, too; no step
-//! that works is looked for, which would take further runs. Cases that are alike run in lockstep, and have the rows
-//! that they have alone.
+//! `(scene's text, changes, method) => samples => row`. An invalid or failed case is a row, too; no stable step
+//! is searched for, which would take further runs. Similar cases run in lockstep, with the same rows
+//! as alone.
 
 use std::{io, iter};
 
@@ -18,12 +18,12 @@ use crate::commands::run::{RunOptions, plan_within};
 use crate::report::{Figures, Statistics};
 use crate::simulate::{Ending, Member, Observer, Sample, lanes, simulate, simulate_together};
 
-/// What the cases of a sweep have in common.
+/// The common part of the cases of a sweep.
 #[derive(Clone, Copy, Debug)]
 pub struct Bench<'b> {
     /// The scene's text.
     pub text: &'b str,
-    /// What messages call it.
+    /// Its name in messages.
     pub file: &'b str,
 }
 
@@ -38,14 +38,14 @@ impl Trial for Bench<'_> {
 }
 
 impl Bench<'_> {
-    /// The rows of cases, each with its method: those that have one plan and are alike run in lockstep, a row is
-    /// the same as alone.
+    /// The rows of cases, each with its method: similar cases with one plan run in lockstep, with the same rows as
+    /// alone.
     pub fn run(&self, cases: &[(Vec<String>, Method)], columns: &[Column]) -> Vec<Row> {
         let prepared =
             |(changes, method): &(Vec<String>, Method)| Case::new(self, changes, *method);
         let cases: Vec<Result<Case, String>> = cases.iter().map(prepared).collect();
         let mut rows: Vec<Option<Row>> = vec![None; cases.len()];
-        // What has been tried together and has no row runs alone.
+        // Cases without a row after lockstep run alone.
         let mut tried = vec![false; cases.len()];
         for first in 0..cases.len() {
             let Ok(case) = &cases[first] else { continue };
@@ -71,7 +71,7 @@ impl Bench<'_> {
     }
 }
 
-/// A case that may begin.
+/// A valid case.
 struct Case {
     scene: Scene,
     method: Method,
@@ -89,7 +89,7 @@ impl Case {
         Ok(Self { scene, method, plan })
     }
 
-    /// Whether lanes may step both.
+    /// Whether both can run in lanes.
     fn goes_with(&self, other: &Self) -> bool {
         (self.method, self.plan) == (other.method, other.plan) && lanes(&self.method) > 1
     }
@@ -103,7 +103,7 @@ impl Case {
         }
     }
 
-    /// The rows of cases of one method and plan; `None` for one that has to run by itself.
+    /// The rows of cases of one method and plan; `None` for one that has to run alone.
     fn run_together(cases: &[&Self], columns: &[Column]) -> Vec<Option<Row>> {
         let recorder = |case: &&Self| Recorder::new(&case.scene, columns);
         let mut recorders: Vec<Recorder> = cases.iter().map(recorder).collect();
@@ -111,13 +111,13 @@ impl Case {
         let mut members: Vec<Member<'_>> =
             members.map(|(case, observer)| Member { scene: &case.scene, observer }).collect();
         let endings = simulate_together(&cases[0].method, &cases[0].plan, &mut members);
-        // Where there is none, each says so itself.
+        // Without a common plan, each case reports its own error.
         let endings = endings.unwrap_or_default().into_iter().chain(iter::repeat(None));
         let rows = cases.iter().zip(recorders).zip(endings);
         rows.map(|((case, recorder), ending)| Some(case.row(&ending?, recorder))).collect()
     }
 
-    /// What it came to.
+    /// Its outcome.
     fn row(&self, ending: &Ending, recorder: Recorder) -> Row {
         let Self { scene, plan, .. } = self;
         let Recorder { figures, statistics, .. } = recorder;
@@ -141,7 +141,7 @@ impl Case {
     }
 }
 
-/// The status of a case that is refused.
+/// The status of an invalid case.
 fn refused(why: String) -> String {
     format!("refused: {why}")
 }
@@ -162,7 +162,7 @@ fn planned(scene: &Scene, method: &Method) -> Result<Plan, Misfit> {
     Ok(plan)
 }
 
-/// Where a sample has the value of a column.
+/// The position of a column's value in a sample.
 #[derive(Clone, Copy, Debug)]
 enum Place {
     Body(usize, usize),
@@ -170,7 +170,7 @@ enum Place {
     Reading(usize),
 }
 
-/// The places of columns; `None` for one that the changed scene does not have.
+/// The positions of columns; `None` for one that the changed scene does not have.
 fn places(scene: &Scene, columns: &[Column]) -> Vec<Option<Place>> {
     let all = scene.columns();
     let of_bodies = scene.body_names.len() * BODY_COLUMNS.len();
@@ -186,7 +186,7 @@ fn places(scene: &Scene, columns: &[Column]) -> Vec<Option<Place>> {
     columns.iter().map(place).collect()
 }
 
-/// Takes in the figures of the columns.
+/// Accumulates the figures of the columns.
 struct Recorder {
     places: Vec<Option<Place>>,
     figures: Vec<Figures>,

@@ -1,4 +1,4 @@
-//! Why a sweep was refused, or not brought to its end.
+//! Why a sweep was refused or did not complete.
 
 use std::io;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use crate::commands::folder::FolderError;
 use crate::commands::run::RunError;
 use crate::terminal::LoadError;
 
-/// Why there is no table.
+/// Why no table was written.
 #[derive(Debug, Error, Diagnostic)]
 pub enum SweepError {
     /// Its file, or something in it.
@@ -29,7 +29,7 @@ pub enum SweepError {
     /// Another program runs these cases.
     #[error("another sweep runs these cases: {} is in use", file.display())]
     #[diagnostic(help(
-        "wait for it, or give each of several programs a share: --shard 1/2, --shard 2/2"
+        "wait for it, or run several programs with one shard each: --shard 1/2, --shard 2/2"
     ))]
     Busy {
         /// Its file of finished cases.
@@ -38,7 +38,7 @@ pub enum SweepError {
     /// Cases are missing.
     #[error("{missing} of {cases} cases are not finished: {named}")]
     #[diagnostic(help(
-        "the same command without --merge runs them, as does each share's own; --merge --partial makes a \
+        "run them with the same command without --merge, or with that of their shard; --merge --partial makes a \
          table without them"
     ))]
     Incomplete {

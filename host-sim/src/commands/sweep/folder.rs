@@ -1,7 +1,7 @@
 //! The folder of a sweep's results.
 //!
-//! `(--out, SPEC.toml) => OUT/SPEC/{cases/, sweep.csv, sweep.html, sweep.json, reports/}`. Finished cases may be those
-//! of any sweep; the table of another sweep is not replaced unasked. The files appear together, `sweep.json`
+//! `(--out, SPEC.toml) => OUT/SPEC/{cases/, sweep.csv, sweep.html, sweep.json, reports/}`. Finished cases may belong
+//! to any sweep; the table of another sweep is replaced only with --overwrite. The files appear together, `sweep.json`
 //! last.
 
 use std::fs;
@@ -22,12 +22,12 @@ use crate::commands::sweep::outcome::SweepOutcome;
 use crate::terminal::SceneFile;
 use crate::terminal::text::json;
 
-/// Names of the results; the last says that the others are there, and whose they are.
+/// Names of the results; the last marks the set complete and names its sweep.
 const RESULTS: [&str; 4] = ["sweep.csv", PARQUET, "sweep.html", SEAL];
 const PARQUET: &str = "sweep.parquet";
 const SEAL: &str = "sweep.json";
 
-/// Where a sweep's results lie.
+/// The folders of a sweep's results.
 #[derive(Clone, Debug)]
 pub struct SweepFolder {
     out: PathBuf,
@@ -38,7 +38,7 @@ pub struct SweepFolder {
     pub cases: PathBuf,
 }
 
-/// What a table says of its sweep.
+/// The sweep as recorded with its table.
 #[derive(Deserialize)]
 struct Owner {
     sweep_file: String,
@@ -67,10 +67,10 @@ impl SweepFolder {
         Ok(Self { out: out.to_owned(), stem: file.stem.clone(), place, cases })
     }
 
-    /// Makes the folder and opens a share's file of finished cases. What killed programs left is removed.
+    /// Makes the folder and opens a shard's file of finished cases. Temporary files of killed programs are removed.
     ///
     /// # Errors
-    /// Where they cannot be written to, or another program has the share.
+    /// If they cannot be written to, or another program uses the shard.
     pub fn open(&self, shard: Shard) -> Result<Store, SweepError> {
         self.make()?;
         let reason = |reason| FolderError::Unwritable { folder: self.cases.clone(), reason };
@@ -91,10 +91,10 @@ impl SweepFolder {
         Ok(())
     }
 
-    /// Writes the table, its page and what it is.
+    /// Writes the table, its page and its description.
     ///
     /// # Errors
-    /// Where they cannot be written; then those of before are there, or none.
+    /// If they cannot be written; the previous files remain, or none.
     pub fn write(
         &self,
         table: &Table,
@@ -113,7 +113,7 @@ impl SweepFolder {
                 dbd_study::sweep::parquet::write(table, &mut file)?;
                 files.add(file);
             }
-            // One of another build is not of this table.
+            // A file of another build does not belong to this table.
             #[cfg(not(feature = "parquet"))]
             files.without(PARQUET);
             files.write("sweep.html", page)?;

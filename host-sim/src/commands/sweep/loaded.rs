@@ -23,10 +23,10 @@ use crate::simulate::lanes;
 use crate::terminal::catalogue::is_path;
 use crate::terminal::{Catalogue, Found, SceneFile};
 
-/// What of the program makes other rows: its version and, where it was built in its repository, its sources.
+/// The program's part of the key of a row: its version and, if built in its repository, its sources.
 pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), env!("DBD_SOURCES"));
 
-/// The changes that say when a case is looked at and ends.
+/// The changes that set sampling and duration of a case.
 const PLAN: [&str; 3] = ["step=", "duration=", "every="];
 
 /// A sweep that may begin: its file is read and every axis checked.
@@ -39,9 +39,9 @@ pub struct Sweep {
     pub found: Found,
     /// The columns that it has figures of.
     pub columns: Vec<Column>,
-    /// What a command line calls the scene.
+    /// The scene's name on the command line.
     called: String,
-    /// What messages call its file.
+    /// Its file's name in messages.
     name: String,
     /// The hash of all that its cases have in common.
     base: Digest,
@@ -56,8 +56,8 @@ impl Sweep {
         let spec = Spec::load(path)?;
         let called = spec.scene.text.as_str();
         if called == "-" {
-            let help = "a scene by name, or a path to a .toml file: each share reads it anew";
-            let message = "a sweep's scene does not come from standard input";
+            let help = "give a scene by name or a path to a .toml file: each shard reads it again";
+            let message = "the scene of a sweep cannot come from standard input";
             return Err(spec.source.refuse(spec.scene.place.clone(), message, help).into());
         }
         let beside = path.parent().unwrap_or(Path::new("")).join(called);
@@ -94,19 +94,19 @@ impl Sweep {
     pub fn run(&self, cases: &[usize]) -> Vec<Row> {
         let all = Cases::new(&self.spec);
         let bench = Bench { text: &self.found.text, file: &self.name };
-        // Every combination was looked at.
+        // Every combination was checked.
         let case = |case: &usize| (all.changes(*case), all.method(*case).unwrap_or_default());
         bench.run(&cases.iter().map(case).collect::<Vec<_>>(), &self.columns)
     }
 
-    /// Cases in parts that run at once, so that those of one method and step can go in lockstep: as many as lanes
-    /// step, fewer where some of so many threads would have nothing to do.
+    /// Cases in batches, so that those of one method and step can run in lockstep: as many as there are
+    /// lanes, fewer if some threads would be idle.
     #[must_use]
     pub fn parts(&self, cases: &[usize], threads: usize) -> Vec<Vec<usize>> {
         let all = Cases::new(&self.spec);
         let fair = cases.len().div_ceil(threads.max(1));
         let mut parts: Vec<Vec<usize>> = Vec::new();
-        // The part of each kind that is not full.
+        // The incomplete batch of each kind.
         let mut open: HashMap<Vec<String>, usize> = HashMap::new();
         for case in cases {
             let method = all.method(*case).unwrap_or_default();
@@ -181,18 +181,18 @@ impl Sweep {
     }
 }
 
-/// ρ∞ where it is not what it is without a word.
+/// ρ∞ if it is not the default.
 fn given_rho(method: &Method) -> Option<f64> {
     method.rho().filter(|rho| *rho != GeneralizedAlpha::RHO)
 }
 
-/// A method in words.
+/// A method as text.
 fn words(method: &Method) -> Vec<String> {
     let newton = method.newton().map_or(String::new(), |newton| newton.to_string());
     let [scheme, precision] = [method.scheme_name(), method.precision_name()].map(String::from);
     let damping = method.damping().name().to_owned();
     let mut words = vec![scheme, newton, damping, precision, method.orientation_name().to_owned()];
-    // Keys of cases without it are as they were.
+    // Keys of cases without it stay unchanged.
     words.extend(given_rho(method).map(|rho| rho.to_string()));
     words
 }

@@ -1,4 +1,4 @@
-//! `host-sim sweep`: many values of one scene, a row per case.
+//! `host-sim sweep`: one scene with many values, one row per case.
 //!
 //! `SPEC.toml => cases => OUT/SPEC/cases/*.rows => OUT/SPEC/sweep.{csv,html,json}`. Every axis is checked
 //! before anything is written; finished cases are kept as they come and never run again. Alike cases run in
@@ -32,42 +32,42 @@ use crate::commands::sweep::outcome::SweepOutcome;
 use crate::commands::sweep::workers::on_all;
 use crate::terminal::Catalogue;
 
-/// What `host-sim sweep` takes.
+/// Arguments of `host-sim sweep`.
 #[derive(Clone, Debug, Args)]
 pub struct SweepArguments {
     /// The sweep's file: scene, axes, columns
     #[arg(value_name = "SPEC.toml", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
-    /// Run a share of the cases, I of N from 1; --merge makes the table of all shares
+    /// Run one shard of the cases, I of N, counted from 1; --merge makes the table of all shards
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
-    /// Run nothing: make the table of the cases that are finished
+    /// Run no cases; make the table of the finished ones
     #[arg(long, conflicts_with = "shard")]
     pub merge: bool,
-    /// Make the table though cases are missing
+    /// Make the table even if cases are missing
     #[arg(long, requires = "merge")]
     pub partial: bool,
-    /// Cases that run at once [default: one per core]
+    /// Number of parallel cases [default: one per core]
     #[arg(long, value_name = "N")]
     pub jobs: Option<std::num::NonZeroUsize>,
-    /// Write each case's results as run does, below OUT/SPEC/reports
+    /// Write each case's results as run does, to OUT/SPEC/reports
     #[arg(long, conflicts_with = "merge")]
     pub reports: bool,
-    /// Folder below which results are written, each sweep's in one of its file's name
+    /// Folder for results; each sweep gets a subfolder named after its file
     #[arg(long, value_name = "DIR", default_value = "out", value_hint = ValueHint::DirPath)]
     pub out: PathBuf,
-    /// Replace the table of another sweep whose file has the same name
+    /// Overwrite the table of another sweep whose file has the same name
     #[arg(long)]
     pub overwrite: bool,
-    /// Print nothing but errors
+    /// Print only errors
     #[arg(long)]
     pub quiet: bool,
-    /// Print what it came to as JSON
+    /// Print the outcome as JSON
     #[arg(long)]
     pub json: bool,
 }
 
-/// Does what is asked for; `progress` hears of cases done and cases to do.
+/// Runs the request; `progress` is called with the finished and total numbers of cases.
 ///
 /// # Errors
 /// [`SweepError`]; a case that fails is a row.
@@ -140,7 +140,7 @@ pub fn sweep(
     Ok(outcome)
 }
 
-/// The cases of a share. Those of one key are of the share of the first.
+/// The cases of a shard. Cases with one key belong to the shard of the first.
 fn of_share(keys: &[Key], shard: Shard) -> Vec<usize> {
     let mut first = HashMap::new();
     let is_own = |case: &usize| shard.holds(*first.entry(keys[*case]).or_insert(*case));

@@ -1,6 +1,6 @@
-//! What a sweep came to: as people read it, and as programs do.
+//! The outcome of a sweep, for people and for programs.
 //!
-//! `(sweep, finished cases) => rows of text, JSON`. What `sweep.json` holds is the same whoever ran which case.
+//! `(sweep, finished cases) => rows of text, JSON`. `sweep.json` does not depend on who ran which case.
 
 use dbd_study::sweep::cases::Cases;
 use dbd_study::sweep::row::OK;
@@ -11,10 +11,10 @@ use serde::Serialize;
 use crate::commands::sweep::error::SweepError;
 use crate::commands::sweep::loaded::{Sweep, VERSION};
 
-/// Cases that a message names.
+/// Largest number of cases named in a message.
 const NAMED: usize = 8;
 
-/// What a sweep came to.
+/// The outcome of a sweep.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SweepOutcome {
     /// The sweep's file.
@@ -33,11 +33,11 @@ pub struct SweepOutcome {
     pub cases: usize,
     /// How many of them are finished, of the share where it is one.
     pub finished: usize,
-    /// How many of these came to their end.
+    /// How many of these completed.
     pub ok: usize,
     /// The axes in their order.
     pub axes: Vec<AxisOutcome>,
-    /// What is measured of each case.
+    /// The measured columns of each case.
     pub columns: Vec<ColumnOutcome>,
     /// The share, where it is one.
     #[serde(skip)]
@@ -48,7 +48,7 @@ pub struct SweepOutcome {
     /// Cases that are missing.
     #[serde(skip)]
     pub missing: Vec<usize>,
-    /// The first case that did not come to its end, and what it says.
+    /// The first case that did not complete, with its status.
     #[serde(skip)]
     pub first_failure: Option<(usize, String)>,
     /// Files of finished cases that were damaged.
@@ -102,13 +102,13 @@ impl SweepOutcome {
             let lines = if lines == 1 { "a line".into() } else { format!("{lines} lines") };
             match &damage.aside {
                 Some(aside) => format!(
-                    "{file} is damaged in {lines}: it is set aside as {}, and the cases of these lines \
+                    "{file} is damaged in {lines}: it is renamed to {}, and the cases of these lines \
                      have to run again",
                     aside.display()
                 ),
                 None => format!(
-                    "{file} is damaged in {lines}, and in use: the program that has it is \
-                                 not told"
+                    "{file} is damaged in {lines}, and in use: the program that uses it is \
+                                 not notified"
                 ),
             }
         };
@@ -163,7 +163,7 @@ impl SweepOutcome {
         }
     }
 
-    /// What a page says: nothing of who ran which case.
+    /// The rows of a page, independent of who ran which case.
     #[must_use]
     pub fn rows_of_page(&self) -> Vec<(&'static str, String)> {
         let mut rows = self.rows();
@@ -176,7 +176,7 @@ impl SweepOutcome {
         rows
     }
 
-    /// What people read.
+    /// The report for people.
     #[must_use]
     pub fn rows(&self) -> Vec<(&'static str, String)> {
         let axes: Vec<String> =

@@ -1,16 +1,16 @@
 //! Cases on all cores.
 //!
-//! `(cases, threads) => what each came to, as they finish`. Threads take the next case that none has; one
-//! thread, the caller's, takes in what they came to. Where it cannot, no further case begins.
+//! `(cases, threads) => outcomes, as they finish`. Each thread takes the next free case; the
+//! caller's thread collects the outcomes. If collecting fails, no further case begins.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-/// Runs the cases of these numbers in so many threads; `take` hears of each as it finishes.
+/// Runs the cases of these numbers in the given number of threads; `take` is called as each finishes.
 ///
 /// # Errors
-/// What `take` fails with.
+/// The error of `take`.
 pub fn on_all<T: Send, E>(
     cases: &[usize],
     threads: usize,
@@ -25,7 +25,7 @@ pub fn on_all<T: Send, E>(
             scope.spawn(move || {
                 while !stop.load(Ordering::Relaxed) {
                     let Some(case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
-                    // Nobody takes it where taking has failed.
+                    // The receiver is gone if `take` has failed.
                     let _ = sender.send((*case, run(*case)));
                 }
             });

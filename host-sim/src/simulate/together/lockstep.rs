@@ -11,7 +11,7 @@ use dbd_scene::Scene;
 use super::Member;
 use crate::simulate::run::{Course, Ending, SimulationError};
 
-/// How many runs of a method go in lockstep on this machine; 1 where lanes do not step it.
+/// Number of runs of a method in lockstep on this machine; 1 if lanes do not support it.
 #[must_use]
 pub fn lanes(method: &Method) -> usize {
     let leapfrog = Method::default();
@@ -24,8 +24,8 @@ pub fn lanes(method: &Method) -> usize {
     }
 }
 
-/// Runs one plan with all members. `None` for a member that has to run by itself: its structure is not the
-/// first one's, or it does not come to the end.
+/// Runs one plan with all members. `None` for a member that has to run alone: its structure differs from the
+/// first one's, or it fails.
 ///
 /// # Errors
 /// Where there is no plant of the method with the plan's step, or an observer fails.
@@ -44,7 +44,7 @@ pub fn simulate_together(
     let mut courses: Vec<Option<Course<'_>>> = courses?.into_iter().map(Some).collect();
     let mut wall = Duration::ZERO;
     loop {
-        // All have one plan, so all that go on have as far to go.
+        // All have the same plan, so the remaining ones have the same number of steps left.
         let mut next = 0;
         for (instance, row) in rows.iter().enumerate() {
             let Some(course) = &mut courses[instance] else { continue };
@@ -76,8 +76,8 @@ pub fn simulate_together(
     }
 }
 
-/// The members that may go with the first one: lanes step the method, and tables give the same values at the
-/// same times, so that all evaluate forces as often.
+/// The members that may run with the first one: lanes support the method, and tables have the same values at the
+/// same times, so that all evaluate forces equally often.
 fn alike(method: &Method, members: &[Member<'_>]) -> Vec<usize> {
     let Some(first) = members.first().filter(|_| lanes(method) > 1) else { return Vec::new() };
     let tables = &first.scene.model;
@@ -88,8 +88,8 @@ fn alike(method: &Method, members: &[Member<'_>]) -> Vec<usize> {
     (0..members.len()).filter(|row| goes(members[*row].scene)).collect()
 }
 
-/// An ensemble of these members, without those of another structure, which leave `rows`; `None` of fewer than
-/// two.
+/// An ensemble of these members, without those of another structure, which are removed from `rows`; `None` for fewer
+/// than two.
 fn ensemble(
     method: &Method,
     plan: &Plan,
@@ -132,7 +132,7 @@ mod tests {
         }
     }
 
-    /// A scene thrice, one that fails on its way and one that does not go with them.
+    /// Three copies of a scene, one that fails during the run and one of another structure.
     fn scenes(name: &str, other: &str) -> Vec<Scene> {
         let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();

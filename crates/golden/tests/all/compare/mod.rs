@@ -162,7 +162,7 @@ fn each_thing_that_is_another_has_its_own_message() {
 
     let next = text.replacen("golden 1", "golden 7", 1);
     let mismatch = four_bar().compare(&next, &Tolerance::Bits).unwrap_err();
-    words(&mismatch, ["version 7", "known is 1"]);
+    words(&mismatch, ["version 7", "expected 1"]);
 
     // A run that ends early, and one that goes on.
     let short = Recording::of_scene(&of, &plant::<F32>(&of), 50, &[]).unwrap();
@@ -274,16 +274,16 @@ fn a_record_that_does_not_fit_is_refused() {
     let new = |every, bodies: &[&str]| Recording::of_plant("a", &plant, every, bodies, &[]);
     refused(new(5, &["a"]).unwrap_err(), "1 names are given for 3 bodies");
     refused(new(5, &["a", "b\t", "c"]).unwrap_err(), "control character");
-    refused(new(0, &["a", "b", "c"]).unwrap_err(), "a step or more");
+    refused(new(0, &["a", "b", "c"]).unwrap_err(), "at least one step");
     let unknown = Recording::of_scene(&of, &plant, 5, &["torq"]).unwrap_err();
     refused(unknown, "has no readout `torq`");
     let mut recording = Recording::of_scene(&of, &plant, 5, &[]).unwrap();
     recording.look(&plant).unwrap();
-    refused(recording.sample(&plant, &[]).unwrap_err(), "does not come after");
+    refused(recording.sample(&plant, &[]).unwrap_err(), "is not after");
     plant.advance(4).ok().unwrap();
     assert!(!recording.look(&plant).unwrap());
     plant.advance(4).ok().unwrap();
-    refused(recording.look(&plant).unwrap_err(), "due at step 5, and the plant is at step 8");
+    refused(recording.look(&plant).unwrap_err(), "due at step 5, but the plant is at step 8");
     refused(recording.look_with(&plant, &[1.0]).unwrap_err(), "due at step 5");
     refused(recording.sample(&plant, &[1.0]).unwrap_err(), "1 values are given for 0 names");
 }

@@ -1,7 +1,7 @@
-//! Joints: where they stand on their bodies, and about which axes they turn.
+//! Joints: positions on their bodies, and axes of rotation.
 //!
-//! `groups of a joint => places, axes`. A joint's place is the middle of the points that its type
-//! puts about it (`dbd-scene`, joints), on the first body; on the second the same point.
+//! `groups of a joint => points, axes`. A joint's point is the mean of the points that its type defines (`dbd-scene`,
+//! joints), on the first body; on the second the same point.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,7 +16,7 @@ pub(super) fn row(body: BodyIndex) -> Option<usize> {
     (!body.is_world()).then(|| body.row())
 }
 
-/// The rows of the bodies that universal joints bring.
+/// The rows of the spiders of universal joints.
 pub(super) fn spiders(scene: &Scene) -> BTreeSet<usize> {
     let universal = scene.joints.iter().filter(|joint| joint.spider.is_some());
     universal
@@ -65,7 +65,7 @@ pub(super) fn joint_springs(scene: &Scene) -> Vec<JointSpring> {
     springs
 }
 
-/// Where joints are, by what they join and by the groups that they are made of.
+/// Points of joints, by their bodies and by their groups.
 #[derive(Default)]
 pub(super) struct Pivots {
     of_pair: BTreeMap<[Option<usize>; 2], Place>,
@@ -73,12 +73,12 @@ pub(super) struct Pivots {
 }
 
 impl Pivots {
-    /// The place of the first joint between two bodies, spiders among them.
+    /// The point of the first joint between two bodies, including spiders.
     pub(super) fn between(&self, a: Option<usize>, b: Option<usize>) -> Option<Place> {
         self.of_pair.get(&pair(a, b)).copied()
     }
 
-    /// The place \[m, world\] of the joint that a group belongs to.
+    /// The point \[m, world\] of the joint of a group.
     pub(super) fn of_group(&self, number: usize) -> Option<Vec3<f64>> {
         self.of_group.get(&number).copied()
     }
@@ -93,7 +93,7 @@ fn joint(scene: &Scene, mechanism: &Mechanism, info: &JointInfo) -> Option<Joint
     let (first, last) = (groups.first()?, groups.last()?);
     let kind = kind(info.kind);
     let centres = centres(scene, first);
-    // A fixed joint's third centre stands off its axis.
+    // A fixed joint's third centre is off its axis.
     let about = if kind == JointKind::Fixed { centres.get(..2)? } else { centres };
     let place = Place { body: row(first.a), point: middle(about) };
     let place_w = mechanism.place(&place);
@@ -140,7 +140,7 @@ pub(super) fn tips<'s>(scene: &'s Scene, group: &Group) -> &'s [Vec3<f64>] {
     scene.model.points.get(first + usize::from(group.stars)..first + group.points()).unwrap_or(&[])
 }
 
-/// The middle of points, by halves first: sums of far points stay finite.
+/// The mean of points, halved first so that sums of far points stay finite.
 fn middle(points: &[Vec3<f64>]) -> [f64; 3] {
     let share = 1.0 / points.len().max(1) as f64;
     points.iter().fold(Vec3::ZERO, |sum, point| sum + *point * share).to_f64()

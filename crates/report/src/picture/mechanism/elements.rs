@@ -63,13 +63,13 @@ fn free_length(scene: &Scene, group: &Group) -> f64 {
     }
 }
 
-/// The name in what messages call an element: "tsda `strut` (shell–knuckle)".
+/// The name within an element's name in messages: "tsda `strut` (shell–knuckle)".
 fn named(label: &str) -> Option<String> {
     let (_, rest) = label.split_once(" `")?;
     rest.rsplit_once("` (").map(|(name, _)| name.to_owned())
 }
 
-/// Torsion springs, without those that only count turns.
+/// Torsion springs, without those that only count revolutions.
 pub(super) fn torsions(scene: &Scene, mechanism: &Mechanism, pivots: &Pivots) -> Vec<TorsionMark> {
     let springs = scene.model.torsions.iter().take(scene.torsion_springs());
     springs

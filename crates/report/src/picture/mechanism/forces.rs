@@ -7,7 +7,7 @@ use dbd_scene::Scene;
 use super::attached::{Pivots, centres, row, tips};
 use super::parts::{Along, ForceKind, ForceMark, Place, length};
 
-/// The loads in scene order, then the inputs; of a load that pushes and turns two.
+/// The loads in scene order, then the inputs; two for a load with force and torque.
 pub(super) fn forces(scene: &Scene, pivots: &Pivots) -> Vec<ForceMark> {
     let mut forces = Vec::new();
     for load in &scene.model.loads {

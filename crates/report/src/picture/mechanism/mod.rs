@@ -1,8 +1,7 @@
-//! The geometry of a mechanism: what there is to see of a scene, whatever draws it.
+//! The geometry of a mechanism, independent of its renderer.
 //!
-//! `scene => bodies, joints, springs, guides, forces`. A point belongs to a body and lies in its
-//! axes, or to the ground; so other poses of the bodies move the whole. Sizes that only a drawing
-//! on paper has (the width of a bar, a hinge's circle) are not in it.
+//! `scene => bodies, joints, springs, guides, forces`. A point is given in the axes of its body or of the ground, so
+//! that it follows other poses. Sizes of symbols (the width of a bar, a hinge's circle) are excluded.
 
 mod attached;
 mod elements;
@@ -70,8 +69,8 @@ impl Mechanism {
             let solid = || Solid::of(&geometry.solid, geometry.colour.clone());
             owner.into_iter().for_each(|solids| solids.push(solid()));
         }
-        // What has a shape for its inertia looks like it, unless its geometry says otherwise or it is held
-        // outside of it, where only its outline shows what belongs together.
+        // A body with a shape for its inertia is drawn as that shape, unless it has a geometry or attachments outside
+        // of the shape, which only an outline connects.
         let solids =
             scene.derived.iter().filter_map(|body| Some((&*body.name, body.solid.as_ref()?)));
         let solids: BTreeMap<&str, _> = solids.collect();

@@ -1,4 +1,4 @@
-//! What bodies look like: a bar, a plate or a block, by where joints and elements hold them.
+//! Outlines of bodies: a bar, a plate or a block, by the attachments of joints and elements.
 //!
 //! `(points of joints and elements, mass, inertia) => outline`. A box of mass m has the sides
 //! `a² = 6·(I₂ + I₃ − I₁)/m`.
@@ -11,14 +11,13 @@ use dbd_scene::Scene;
 use super::parts::{Bounds, Mechanism, Outline, Place, length};
 use super::solid::Solid;
 
-/// Points nearer than this share of the mechanism's size are one.
+/// Points closer than this fraction of the mechanism's size are merged.
 const SAME: f64 = 1e-6;
-/// A body whose points span less than this share of its box is drawn as the box: a wheel on its
-/// bearing.
+/// A body whose points span less than this fraction of its box is drawn as the box, like a wheel on its bearing.
 const WITHIN: f64 = 0.25;
-/// A body's points may lie this share of its shape's longest side outside of it.
+/// Tolerance of a body's points outside of its shape, as a fraction of the longest side.
 const PIN: f64 = 0.1;
-/// Sides of a block: at most this share of what else there is, at least this one of its longest.
+/// Sides of a block: maximum as a fraction of the mechanism's size, minimum as a fraction of its longest side.
 const LARGEST: f64 = 0.5;
 const THINNEST: f64 = 0.04;
 
@@ -56,7 +55,7 @@ fn outline(points: Vec<Vec3<f64>>, mass: f64, inertia: [f64; 3], size: f64) -> O
     }
 }
 
-/// Whether a solid holds all points of an outline, or nearly: a pin may stand at its end.
+/// Whether a solid contains all points of an outline, with a tolerance for a pin at its end.
 pub(super) fn is_within(outline: &Outline, solid: &Solid) -> bool {
     let points: &[[f64; 3]] = match outline {
         Outline::Bar { ends } => ends,
@@ -89,7 +88,7 @@ fn half_sides(mass: f64, inertia: [f64; 3], size: f64) -> [f64; 3] {
     sides.map(|side| 0.5 * side.max(THINNEST * longest))
 }
 
-/// The points of each body where joints and elements hold it.
+/// The attachment points of each body.
 fn held(mechanism: &Mechanism) -> Vec<Vec<Vec3<f64>>> {
     let mut held = vec![Vec::new(); mechanism.bodies.len()];
     let mut hold = |place: &Place| {
@@ -122,9 +121,9 @@ fn size(mechanism: &Mechanism, held: &[Vec<Vec3<f64>>]) -> f64 {
     bounds.longest()
 }
 
-/// Points that are apart, each the first of those near it.
+/// Distinct points, each the first of its cluster.
 fn distinct(points: Vec<Vec3<f64>>, near: f64) -> Vec<Vec3<f64>> {
-    /// A body that more hold is not looked through.
+    /// Maximum number of attachments that are merged.
     const MOST: usize = 200;
     let mut apart: Vec<Vec3<f64>> = Vec::new();
     for point in points {

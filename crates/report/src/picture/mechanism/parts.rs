@@ -63,13 +63,13 @@ pub struct BodyShape {
     pub position: [f64; 3],
     /// Unit quaternion, scalar first, body → world.
     pub orientation: [f64; 4],
-    /// What it looks like where it has no shapes.
+    /// Its outline if it has no shapes.
     pub outline: Outline,
     /// The solids of the scene's `[[geometry]]`; where there are some it is drawn by them.
     pub shapes: Vec<Solid>,
 }
 
-/// What a body looks like, in its axes from its centre of mass.
+/// Outline of a body, in its axes from its centre of mass.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Outline {
     /// Straight between two points of joints and elements, or between one and the centre of mass.
@@ -87,7 +87,7 @@ pub enum Outline {
         /// \[m\] half of each side, along the body's axes.
         half: [f64; 3],
     },
-    /// The spider of a universal joint, which the joint's cross stands for.
+    /// The spider of a universal joint, drawn as the joint's cross.
     Spider,
 }
 
@@ -95,17 +95,17 @@ pub enum Outline {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
-    /// Holds all.
+    /// No relative motion.
     Fixed,
     /// Lets slide along an axis.
     Translational,
-    /// Lets slide along an axis and turn about it.
+    /// Sliding along an axis and rotation about it.
     Cylindrical,
-    /// Lets turn about an axis.
+    /// Rotation about an axis.
     Revolute,
-    /// Lets turn about two axes.
+    /// Rotation about two axes.
     Universal,
-    /// Lets turn about any axis.
+    /// Rotation about any axis.
     Spherical,
     /// One that this crate has no symbol for.
     Other,
@@ -118,7 +118,7 @@ pub struct JointMark {
     pub name: String,
     /// Its type.
     pub kind: JointKind,
-    /// Its place on the first body and the same on the second.
+    /// Its point on the first body and the same on the second.
     pub places: [Place; 2],
     /// The axes about which or along which it moves: two of a universal joint, one of a revolute,
     /// cylindrical and translational joint, else none.
@@ -188,13 +188,13 @@ pub struct InteractionMark {
     pub at: Place,
 }
 
-/// What a force does.
+/// Kind of a force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ForceKind {
     /// Pushes along its direction.
     Force,
-    /// Turns about its direction.
+    /// Torque about its direction.
     Torque,
     /// Moves the ground's points along its direction.
     Shift,
@@ -205,7 +205,7 @@ pub enum ForceKind {
 pub struct ForceMark {
     /// The input's name; `None` for a load.
     pub input: Option<String>,
-    /// What it does.
+    /// Its kind.
     pub kind: ForceKind,
     /// The unit of its value.
     pub unit: &'static str,
@@ -216,7 +216,7 @@ pub struct ForceMark {
 }
 
 impl Mechanism {
-    /// A place in the world \[m\].
+    /// A point in the world \[m\].
     #[must_use]
     pub fn place(&self, place: &Place) -> Vec3<f64> {
         let point = self.turned(place.body, place.point);

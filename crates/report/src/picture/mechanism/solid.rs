@@ -1,6 +1,6 @@
 //! Solids of a scene's `[[geometry]]`.
 //!
-//! `solid => points about it`, in the axes of its owner.
+//! `solid => enclosing points`, in the axes of its owner.
 
 use dbd_kernel::{Quaternion, Vec3};
 use serde::Serialize;
@@ -75,8 +75,8 @@ impl Solid {
         }
     }
 
-    /// Points \[m\] whose hull it nearly is: corners of a box, rims of a cylinder, what is farthest along the axes of
-    /// what is round.
+    /// Points \[m\] whose hull approximates it: corners of a box, rims of a cylinder, extreme points along the axes of
+    /// round solids.
     #[must_use]
     pub fn corners(&self) -> Vec<[f64; 3]> {
         match self {
@@ -103,7 +103,7 @@ pub(crate) fn block(at: &[f64; 3], turn: &[f64; 4], half: &[f64; 3]) -> [[f64; 3
 /// The circles at the ends of a cylinder.
 pub(crate) fn rims(ends: &[[f64; 3]; 2], radius: f64) -> [Vec<[f64; 3]>; 2] {
     let [from, to] = ends.map(Vec3::from_f64);
-    // Far ends would have a square that no number holds.
+    // The square of distant ends would overflow.
     let largest = (to - from).to_f64().into_iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     let along = (to - from) * (1.0 / largest.max(f64::MIN_POSITIVE));
     let along = along * (1.0 / libm::sqrt(along.dot(along)).max(f64::MIN_POSITIVE));
@@ -129,7 +129,7 @@ pub(crate) fn rims(ends: &[[f64; 3]; 2], radius: f64) -> [Vec<[f64; 3]>; 2] {
     [rim(from), rim(to)]
 }
 
-/// What of a ball is farthest along each axis.
+/// Extreme points of a ball along each axis.
 fn ball(at: &[f64; 3], radius: f64) -> [[f64; 3]; 6] {
     std::array::from_fn(|n| {
         let mut point = *at;
@@ -146,7 +146,7 @@ mod tests {
     fn corners_lie_on_their_solids() {
         let half = [0.1, 0.2, 0.3];
         let quarter = core::f64::consts::FRAC_1_SQRT_2;
-        // A quarter turn about z: x and y change places.
+        // A rotation by 90° about z: x and y are exchanged.
         let turn = [quarter, 0.0, 0.0, quarter];
         let solid = Solid::Box { at: [1.0, 0.0, 0.0], turn, half, colour: None };
         let corners = solid.corners();

@@ -66,7 +66,7 @@ fn the_projects_laws_keep_what_laws_promise() {
     hold(&friction, poses).unwrap();
 }
 
-/// A table with a slope of its own beside each knot.
+/// A table with separate slopes on both sides of each knot.
 fn table() -> Curve<f64, 16> {
     let mut knots = [[0.0; 2]; 16];
     knots[..4].copy_from_slice(&[[-0.5, -80.0], [-0.05, -30.0], [0.0, 0.0], [0.03, 90.0]]);
@@ -112,7 +112,7 @@ dbd_kernel::law! {
     }
 }
 
-/// Counts how often it was settled.
+/// Counts the calls of settle.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settled(i32);
 
@@ -174,21 +174,21 @@ fn a_law_that_breaks_a_rule_is_told_which() {
     let broken = |rule| hold(&Broken { bodies: BODIES, points, rule }, Poses::default());
     broken(0).unwrap();
     for (rule, says) in [
-        (1, "settling twice"),
-        (2, "angular momentum is not kept"),
-        (3, "not minus the gradient"),
+        (1, "not idempotent"),
+        (2, "angular momentum is not conserved"),
+        (3, "not minus the energy gradient"),
         (4, "the tangent is too small"),
-        (5, "a damper gives"),
-        (6, "more than it says"),
+        (5, "a damper supplies"),
+        (6, "more than it declares"),
         (7, "damper 1: angular momentum"),
-        (8, "such a law has SLIPS"),
+        (8, "such a law must set SLIPS"),
     ] {
         let why = broken(rule).unwrap_err();
         assert!(why.contains(says), "{rule}: {why}");
     }
     let away = EndStop { points: [Vec3::ZERO, Vec3::new(0.0, 1.0, 1.0)], ..end_stop(0.0) };
     let near = Poses { reach: 1e-9, turn: 1e-9, ..Poses::default() };
-    assert!(hold(&away, near).unwrap_err().contains("in no pose"));
+    assert!(hold(&away, near).unwrap_err().contains("no effect at any pose"));
 }
 
 #[test]

@@ -1,6 +1,6 @@
-//! What a recommendation states of a trial: what limits its step, its load, why it does not meet the request.
+//! Statements about a trial: limit of its step, load, reason why it does not meet the request.
 //!
-//! `(search, trial) => limit, way, words`.
+//! `(search, trial) => limit, method, text`.
 
 use std::collections::BTreeSet;
 
@@ -25,7 +25,7 @@ impl Search<'_> {
         Some(Trial { candidate: row, method, step, error, instructions, longest: false })
     }
 
-    /// What keeps a trial's step from being longer.
+    /// Limit of a trial's step.
     pub(in crate::recommend) fn limit(&mut self, trial: &Trial) -> Limit {
         let candidate = self.candidates[trial.candidate];
         let bounds = self.bounds(candidate);
@@ -47,13 +47,13 @@ impl Search<'_> {
         Limit::Vibration { frequency_hz: frequencies.estimate_hz(), element }
     }
 
-    /// \[s\] the largest stable step of a trial's way; `None` where all are.
+    /// \[s\] the largest stable step of a trial's method; `None` if all are.
     pub(in crate::recommend) fn stable(&mut self, trial: &Trial) -> Option<f64> {
         let stable = self.bounds(self.candidates[trial.candidate]).stable;
         Some(stable).filter(|step| step.is_finite())
     }
 
-    /// \[m\] how far the same way is off in double precision.
+    /// \[m\] error of the same method in double precision.
     pub(in crate::recommend) fn in_double(&self, trial: &Trial) -> Option<f64> {
         let method = trial.method.with_precision(PrecisionName::F64);
         let steps = self.steps(trial.step);
@@ -65,7 +65,7 @@ impl Search<'_> {
         (self.head.grid.interval / step).round() as u64
     }
 
-    /// Ways that were run, and all.
+    /// Number of methods run, and of all.
     pub(in crate::recommend) fn counts(&self) -> (usize, usize) {
         let run: BTreeSet<usize> = self.errors.keys().map(|(row, _)| *row).collect();
         (run.len(), self.candidates.len())
@@ -94,13 +94,13 @@ impl Search<'_> {
         }
     }
 
-    /// Why a trial does not meet a request, and what would.
+    /// Reason why a trial does not meet a request, and the alternative.
     pub(in crate::recommend) fn too_slow(&self, trial: &Trial, quick: Option<&Trial>) -> String {
         let Request { mcu, clock, .. } = self.request;
         let load = load(self.request, trial);
         let needed = clock * load;
         let mut said = format!(
-            "not in real time: {} of a {} at {} MHz; it takes {} MHz",
+            "not in real time: {} load of a {} at {} MHz; it needs {} MHz",
             percent(load),
             mcu.name,
             significant(clock * 1e-6, 4),
@@ -110,18 +110,18 @@ impl Search<'_> {
             Some(quick) => {
                 let Way { model, scheme, precision, step, error, .. } = self.way(quick);
                 said += &format!(
-                    "; in real time the nearest is {scheme}, {precision}, step {} of the model `{model}`: off by \
-                     {error:.1e} m",
+                    "; the most accurate in real time is {scheme}, {precision}, step {} of the model \
+                     `{model}`: error {error:.1e} m",
                     display(step),
                 );
             }
-            None => said += "; no way of stepping it is fast enough here at any accuracy",
+            None => said += "; no method runs in real time here at any accuracy",
         }
         said
     }
 }
 
-/// \[1\] the share of the clock that a trial takes.
+/// \[1\] the CPU load of a trial.
 pub(in crate::recommend) fn load(request: &Request, trial: &Trial) -> f64 {
     trial.cost() * request.mcu.cycles / request.clock
 }

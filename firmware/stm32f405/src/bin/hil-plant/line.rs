@@ -1,4 +1,4 @@
-//! USART2 by its interrupt: bytes wait in two queues for who takes them.
+//! USART2 by its interrupt, with a queue in each direction.
 
 use core::cell::RefCell;
 use core::sync::atomic::{AtomicU32, Ordering};
@@ -102,7 +102,7 @@ impl Handler {
         while self.tx.is_tx_empty() {
             match self.to_send.dequeue() {
                 Some(byte) => _ = self.tx.write(byte),
-                // The interrupt would come for ever.
+                // The interrupt would recur indefinitely.
                 None => return self.tx.unlisten(),
             }
         }
