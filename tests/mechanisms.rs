@@ -54,7 +54,7 @@ pub struct Kind {
     /// Whether there are single elements, loads and inputs.
     pub driven: bool,
     /// Whether joints and points on lines have clearances.
-    pub loose: bool,
+    pub approximate: bool,
 }
 
 /// All types of joints.
@@ -207,7 +207,7 @@ impl Mechanism {
         if ratio > 0.0 {
             let _ = write!(self.joints, "damping_ratio = {ratio:?}\nfrequency = {frequency:?}\n");
         }
-        if self.kind.loose && matches!(kind, "revolute" | "spherical") {
+        if self.kind.approximate && matches!(kind, "revolute" | "spherical") {
             let _ = writeln!(self.joints, "clearance = {:?}", self.random.between(1e-4, 2e-3));
         } else if !slides && self.random.one_in(2) {
             self.joints += "realisation = \"bushing\"\n";
@@ -254,7 +254,7 @@ impl Mechanism {
                 points[1],
                 0.3 * free_length
             );
-            if self.kind.loose && free_length == 0.0 {
+            if self.kind.approximate && free_length == 0.0 {
                 let _ =
                     writeln!(self.elements, "clearance = {:?}", self.random.between(1e-3, 0.02));
             }

@@ -14,7 +14,7 @@ use std::path::Path;
 const END: &str = "<!-- end -->";
 
 /// Lines of either text that a failure shows.
-const MOST_LINES: usize = 40;
+const MAX_LINES: usize = 40;
 
 /// Whether the environment blesses what is derived from the sources (`DBD_BLESS=1`).
 #[must_use]
@@ -116,10 +116,10 @@ fn same(present: &str, wanted: &str) -> Result<(), String> {
     }
     let mut lines = String::new();
     let (old, new): (Vec<_>, Vec<_>) = (present.lines().collect(), wanted.lines().collect());
-    for line in old.iter().filter(|line| !new.contains(line)).take(MOST_LINES) {
+    for line in old.iter().filter(|line| !new.contains(line)).take(MAX_LINES) {
         let _ = writeln!(lines, "- {line}");
     }
-    for line in new.iter().filter(|line| !old.contains(line)).take(MOST_LINES) {
+    for line in new.iter().filter(|line| !old.contains(line)).take(MAX_LINES) {
         let _ = writeln!(lines, "+ {line}");
     }
     Err(format!("is not what was computed:\n{lines}"))

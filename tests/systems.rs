@@ -1,7 +1,7 @@
 //! Test systems that are assembled at run time.
 
 use dbd_kernel::attitude::Attitude as _;
-use dbd_kernel::builder::{LineLaw, ModelBuilder, Stars};
+use dbd_kernel::builder::{LineLaw, ModelBuilder, Triples};
 use dbd_kernel::{BodyIndex, BodyState, Geometry, ModelOwner, Quaternion, Vec3};
 
 use crate::turned;
@@ -36,7 +36,7 @@ fn join<P: Geometry>(
         if revolute { vec![shifted([0.0, 0.0, -0.2]), shifted([0.0, 0.0, 0.2])] } else { vec![at] };
     let arms: Vec<_> = (0..3).map(ring).collect();
     let height: f64 = if revolute { 0.2 } else { 0.1 };
-    let stars = Stars {
+    let triples = Triples {
         between,
         centres: &local(model, between[0], &centres),
         arms: &local(model, between[1], &arms),
@@ -45,7 +45,7 @@ fn join<P: Geometry>(
         free_length: (0.04 + height * height).sqrt(),
         clearance: 0.0,
     };
-    model.add_stars(stars).unwrap();
+    model.add_triples(triples).unwrap();
 }
 
 /// Three asymmetric bodies, tumbling, joined in a ring by every kind of element, without ground

@@ -1,6 +1,6 @@
 //! Deflections of joints under the forces at t = 0, before a run.
 //!
-//! `scene => per joint the longest stretch`. The pose at t = 0, at rest: M·a = Q − Jᵀ·K·J·u, with J
+//! `scene => per joint the longest deformation`. The pose at t = 0, at rest: M·a = Q − Jᵀ·K·J·u, with J
 //! the directions of the joints' elements, K their stiffnesses and u the displacements of the bodies. In the
 //! directions constrained by joints, a is 0: u = M^(−½)·A⁺·M^(−½)·Q with A = M^(−½)·Jᵀ·K·J·M^(−½), by the eigenvectors
 //! of A. Elements much softer than the joints count as free. A joint that starts at free length
@@ -12,7 +12,7 @@ use dbd_study::modes::weighted_forces;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// Largest number of bodies: the time grows with the third power.
-const MOST_BODIES: usize = 60;
+const MAX_BODIES: usize = 60;
 
 /// Modes below this fraction of the softest joint's frequency are motions resisted by springs, not joints,
 /// or by intentionally soft rubber.
@@ -20,7 +20,7 @@ const SOFT: f64 = 0.05;
 
 /// The deflection of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stretch {
+pub struct Deformation {
     /// The row of the joint.
     pub joint: usize,
     /// \[m\] the extension of its most extended element.
@@ -29,7 +29,7 @@ pub struct Stretch {
     pub free_length: f64,
 }
 
-impl Stretch {
+impl Deformation {
     /// The extension as a fraction of the free length.
     #[must_use]
     pub fn share(&self) -> f64 {
@@ -40,9 +40,9 @@ impl Stretch {
 /// The deflections of the joints, in scene order, without those of no length; empty for
 /// too many bodies.
 #[must_use]
-pub fn stretches(scene: &Scene) -> Vec<Stretch> {
+pub fn stretches(scene: &Scene) -> Vec<Deformation> {
     let bodies = scene.model.bodies.len();
-    if bodies > MOST_BODIES {
+    if bodies > MAX_BODIES {
         return Vec::new();
     }
     let elements = dbd_scene::joint_elements(scene);
@@ -72,14 +72,14 @@ pub fn stretches(scene: &Scene) -> Vec<Stretch> {
             way += mode * (mode.dot(&pull) / square);
         }
     }
-    let mut stretches: Vec<Stretch> = Vec::new();
+    let mut stretches: Vec<Deformation> = Vec::new();
     for (element, row) in elements.iter().zip(&rows).filter(|(e, _)| e.free_length > 0.0) {
         let extension = row.iter().map(|(i, a)| way[*i] * a).sum::<f64>().abs();
         let JointElement { joint, free_length, .. } = *element;
         match stretches.last_mut().filter(|last| last.joint == joint) {
             Some(last) if last.extension >= extension => {}
             Some(last) => (last.extension, last.free_length) = (extension, free_length),
-            None => stretches.push(Stretch { joint, extension, free_length }),
+            None => stretches.push(Deformation { joint, extension, free_length }),
         }
     }
     stretches

@@ -196,7 +196,9 @@ impl Error {
             Self::Reproduce(_) => Exit::Refused,
             Self::Ideal(IdealError::NoJoint { .. }) | Self::Asked(_) => Exit::Refused,
             Self::Ideal(IdealError::NotReached { .. }) => Exit::Failed,
-            Self::Advise(AdviseError::NoTruth(_) | AdviseError::None { .. }) => Exit::Failed,
+            Self::Advise(AdviseError::NoReferenceSolution(_) | AdviseError::None { .. }) => {
+                Exit::Failed
+            }
             Self::Advise(_) => Exit::Refused,
             Self::Trade(error) => match error {
                 TradeError::Folder(_) | TradeError::Survey(SurveyError::Window(_)) => Exit::Refused,

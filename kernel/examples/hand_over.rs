@@ -5,20 +5,20 @@
 
 use std::error::Error;
 
-use dbd_kernel::sketch::{Sketch, Spring, Start};
+use dbd_kernel::model_spec::{ModelSpec, Spring, Start};
 use dbd_kernel::{BodyIndex, Leapfrog, Plant, model};
 
 // Two balls on springs, single precision as on the chip.
 const SPRING: Spring = Spring { stiffness: 300.0, damping: 0.1, free_length: 0.4 };
 const FIRST: BodyIndex = BodyIndex(0);
 const SECOND: BodyIndex = BodyIndex(1);
-const SKETCH: Sketch = Sketch::new()
+const MODEL_SPEC: ModelSpec = ModelSpec::new()
     .gravity([0.0, -9.81, 0.0])
     .body(0.5, [1e-3; 3], Start::at([0.5, 0.0, 0.0]))
     .body(0.2, [1e-3; 3], Start::at([0.5, -0.5, 0.1]))
     .tsda([BodyIndex::WORLD, FIRST], [[0.0; 3], [0.0, 0.05, 0.0]], SPRING)
     .tsda([FIRST, SECOND], [[0.0, -0.05, 0.0], [0.0; 3]], SPRING);
-model!(static BALLS: F32 = SKETCH);
+model!(static BALLS: F32 = MODEL_SPEC);
 
 /// The state's hash after 4,000 steps in one go, and with a change of plants half way.
 pub fn hashes() -> Result<[u64; 2], Box<dyn Error>> {

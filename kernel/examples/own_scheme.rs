@@ -2,9 +2,9 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_kernel::forces::{At, ExplicitDampers};
-use dbd_kernel::keep::Nothing;
+use dbd_kernel::keep::NoStorage;
 use dbd_kernel::model::Terms;
-use dbd_kernel::sketch::{Sketch, Spring, Start};
+use dbd_kernel::model_spec::{ModelSpec, Spring, Start};
 use dbd_kernel::status::Cause;
 use dbd_kernel::step::Stepper;
 use dbd_kernel::{BodyIndex, Failure, Geometry, Plant, Real as _, Scheme, model};
@@ -19,7 +19,7 @@ impl Scheme for PositionVerlet {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = ();
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         1
@@ -44,12 +44,10 @@ impl Scheme for PositionVerlet {
 
 // A mass of 2 kg on a spring of 50 N/m, 0.1 m beyond its free length of 1 m.
 const SPRING: Spring = Spring { stiffness: 50.0, damping: 0.0, free_length: 1.0 };
-const SKETCH: Sketch = Sketch::new().body(2.0, [0.1; 3], Start::at([1.1, 0.0, 0.0])).tsda(
-    [BodyIndex::WORLD, BodyIndex(0)],
-    [[0.0; 3]; 2],
-    SPRING,
-);
-model!(static OSCILLATOR: F64 = SKETCH);
+const MODEL_SPEC: ModelSpec = ModelSpec::new()
+    .body(2.0, [0.1; 3], Start::at([1.1, 0.0, 0.0]))
+    .tsda([BodyIndex::WORLD, BodyIndex(0)], [[0.0; 3]; 2], SPRING);
+model!(static OSCILLATOR: F64 = MODEL_SPEC);
 
 /// How far \[m\] it is from 1 + 0.1·cos(5 rad/s · t) after 1 s in so many steps.
 pub fn error(steps: u32) -> Result<f64, Failure> {

@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
+use dbd_kernel::model_spec::{ModelSpec, Spring, Start};
 use dbd_kernel::readouts::Readout;
-use dbd_kernel::sketch::{Sketch, Spring, Start};
 use dbd_kernel::{BodyIndex, F64, Leapfrog, Plant, Vec3, model};
 
 /// A rod of 1 m and 1 kg hangs on a revolute joint about z and swings off with 0.1 rad/s.
@@ -19,21 +19,23 @@ const RING: [[f64; 3]; 3] =
     [[0.1, 0.5, 0.0], [-0.05, 0.586_602_54, 0.0], [-0.05, 0.413_397_46, 0.0]];
 const SPRING: Spring = Spring { stiffness: 1e5, damping: 0.0, free_length: 0.141_421_356 };
 
-const PENDULUM: Sketch = Sketch::new()
+const PENDULUM: ModelSpec = ModelSpec::new()
     .gravity([0.0, -9.81, 0.0])
     .body(1.0, [1.0 / 12.0, 1e-3, 1.0 / 12.0], ROD)
-    .stars([BodyIndex::WORLD, BodyIndex(0)], &AXIS, &RING, SPRING);
+    .triples([BodyIndex::WORLD, BodyIndex(0)], &AXIS, &RING, SPRING);
 
 model!(static MODEL: F64 = PENDULUM);
 
 /// The period \[s\] of its small swings, from the times at which its lower end passes the middle.
 pub fn period() -> Result<f64, Box<dyn Error>> {
     let mut plant = Plant::new(&MODEL, Leapfrog, 1e-4)?;
-    let tip: Readout<F64> = Readout::Point { body: BodyIndex(0), point: Vec3::new(0.0, -0.5, 0.0) };
+    let endpoint: Readout<F64> =
+        Readout::Point { body: BodyIndex(0), point: Vec3::new(0.0, -0.5, 0.0) };
     let (mut before, mut passed) = (0.0, Vec::new());
     while passed.len() < 11 {
         plant.step().ok()?;
-        let x = plant.read(&tip).and_then(|reading| reading.vector()).ok_or("no such point")?.x;
+        let x =
+            plant.read(&endpoint).and_then(|reading| reading.vector()).ok_or("no such point")?.x;
         if before < 0.0 && x >= 0.0 {
             // Between two steps it moves evenly.
             passed.push(plant.time() - plant.step_size() * x / (x - before));

@@ -38,7 +38,7 @@ pub trait Attitude: Copy + Debug + Default + PartialEq + Send + Words + 'static 
     }
     /// Restores `start` in the lanes selected by `resting`. With one lane the caller ensures that it is not selected.
     #[inline(always)]
-    fn keep(&mut self, _resting: <Self::Real as Real>::Truth, _start: &Self) {}
+    fn keep(&mut self, _resting: <Self::Real as Real>::Mask, _start: &Self) {}
     /// Restores unit length, or the range of angles, after the rotations of a step.
     fn renormalise(&mut self);
     /// Whether a rotation was not representable; the stored value is then not an orientation.
@@ -90,7 +90,7 @@ impl<R: Real> Attitude for Quaternion<R> {
         *self = self.turned_about::<AXIS>(cos, sin);
     }
     #[inline(always)]
-    fn keep(&mut self, resting: R::Truth, start: &Self) {
+    fn keep(&mut self, resting: R::Mask, start: &Self) {
         *self = Quaternion::select(resting, *start, *self);
     }
     #[inline(always)]

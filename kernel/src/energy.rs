@@ -9,7 +9,7 @@ use crate::elements::gravity;
 use crate::geometry::Geometry;
 use crate::laws::{Instant, Laws as _};
 use crate::model::{FrameOf, ModelOwner, RealOf};
-use crate::pose::{Places, each_element, place_bodies, twist_of};
+use crate::pose::{Places, each_element, place_bodies, torsion_angle_of};
 use crate::real::Real;
 use crate::schedule::LoadWindow;
 use crate::space::{Linear as _, Moment as _};
@@ -85,7 +85,7 @@ pub fn energy_with_extensions<M: ModelOwner>(
     each_element(&view, places, |placed| {
         let Some(law) = view.element(placed.group.law, placed.index) else { return };
         let clearance = view.clearance(placed.group);
-        let energy = law.energy(&placed.stretch, clearance);
+        let energy = law.energy(&placed.deformation, clearance);
         let kind = match law {
             Element::Tsda(_) => &mut sum.tsda,
             Element::PointBushing(_) | Element::Revolute(_) | Element::Universal(_) => {
@@ -94,12 +94,12 @@ pub fn energy_with_extensions<M: ModelOwner>(
             Element::PointOnLine(_) => &mut sum.line,
         };
         *kind = *kind + energy;
-        visit(placed.number, law.extension(&placed.stretch));
+        visit(placed.number, law.extension(&placed.deformation));
     });
     let turns = RealOf::<M>::counts(state.turns.as_ref());
     for (spring, &turns) in view.torsions.iter().zip(turns) {
-        if let Some(twist) = twist_of::<M::Precision>(spring, bodies, turns) {
-            sum.torsion = sum.torsion + spring.energy(twist.angle);
+        if let Some(torsion_angle) = torsion_angle_of::<M::Precision>(spring, bodies, turns) {
+            sum.torsion = sum.torsion + spring.energy(torsion_angle.angle);
         }
     }
     let at = Instant { frames: frames.as_ref(), bodies, signals: state.signals.as_ref() };
@@ -158,7 +158,7 @@ pub fn each_extension<M: ModelOwner>(
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
     each_element(&view, places, |placed| {
         if let Some(law) = view.element(placed.group.law, placed.index) {
-            visit(placed.number, law.extension(&placed.stretch));
+            visit(placed.number, law.extension(&placed.deformation));
         }
     });
 }

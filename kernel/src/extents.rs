@@ -69,7 +69,7 @@ pub fn first_excess<P: Geometry, Q: Geometry, T: Terms<Q>>(
     step: f64,
 ) -> Option<Excess> {
     let limits = P::LIMITS?;
-    let Limits { extent, reach, drift, shift } = limits;
+    let Limits { extent, elongation, drift, shift } = limits;
     for (row, state) in initial.iter().enumerate() {
         let body = BodyIndex(row as u16);
         let away = farthest(Q::position_to_f64(&state.position));
@@ -96,7 +96,7 @@ pub fn first_excess<P: Geometry, Q: Geometry, T: Terms<Q>>(
         match &input.kind {
             InputKind::Force { body, point, .. } => {
                 let part = Part::Point { body: *body, group: None };
-                let excess = beyond(part, length(Q::local_to_f64(point)), reach);
+                let excess = beyond(part, length(Q::local_to_f64(point)), elongation);
                 if excess.is_some() {
                     return excess;
                 }
@@ -129,11 +129,11 @@ fn out_of_reach<Q: Geometry>(
     point: &Q::Local,
 ) -> Option<Excess> {
     let point = Q::local_to_f64(point);
-    let body = if i < group.stars as usize { group.a } else { group.b };
+    let body = if i < group.triples as usize { group.a } else { group.b };
     if body.is_world() {
         beyond(Part::Ground { group: row }, farthest(point), limits.extent)
     } else {
-        beyond(Part::Point { body, group: Some(row) }, length(point), limits.reach)
+        beyond(Part::Point { body, group: Some(row) }, length(point), limits.elongation)
     }
 }
 
@@ -158,19 +158,19 @@ mod tests {
     use crate::fixed::Fixed;
     use crate::geometry::F64;
     use crate::model::ModelOwner as _;
-    use crate::sketch::{Sketch, Spring, Start};
+    use crate::model_spec::{ModelSpec, Spring, Start};
 
     const SPRING: Spring = Spring { stiffness: 1.0, damping: 0.0, free_length: 1.0 };
 
     /// The excess of a mass at `at` \[m\] with a point and one of the ground.
     fn excess(at: [f64; 3], ground: [f64; 3], point: [f64; 3], step: f64) -> Option<Excess> {
         let start = Start { velocity: [0.0, -30.0, 0.0], ..Start::at(at) };
-        let sketch = Sketch::new().body(1.0, [1.0; 3], start).tsda(
+        let model_spec = ModelSpec::new().body(1.0, [1.0; 3], start).tsda(
             [BodyIndex::WORLD, BodyIndex(0)],
             [ground, point],
             SPRING,
         );
-        let model = sketch.model_f64::<1, 1, 2, 1, 0, 0, 0, 0, 0, 0, 0, 0>();
+        let model = model_spec.model_f64::<1, 1, 2, 1, 0, 0, 0, 0, 0, 0, 0, 0>();
         assert_eq!(first_excess::<F64, _, _>(&model.view(), &model.initial, step), None);
         first_excess::<Fixed, _, _>(&model.view(), &model.initial, step)
     }

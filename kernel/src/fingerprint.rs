@@ -135,10 +135,10 @@ fn visit_model<P: Geometry, T: Terms<P>>(
     ];
     let mut integer = |value: u64| visitor.word(Word::U64(value));
     counts.into_iter().for_each(|count| integer(count as u64));
-    for &Group { law, a, b, stars, arms, shared, point, element, damper, clearance } in *groups {
+    for &Group { law, a, b, triples, arms, shared, point, element, damper, clearance } in *groups {
         integer(law as u64);
         integer(u64::from(a.0) << 16 | u64::from(b.0));
-        integer(u64::from(stars) << 16 | u64::from(arms) << 8 | shared as u64);
+        integer(u64::from(triples) << 16 | u64::from(arms) << 8 | shared as u64);
         integer(u64::from(point) << 16 | u64::from(element));
         integer(u64::from(damper.0) << 16 | u64::from(clearance.0));
     }

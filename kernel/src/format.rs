@@ -8,7 +8,7 @@ use crate::attitude::Attitude as _;
 use crate::body::{Body, BodyState, Diagonal, Increment};
 use crate::elements::load::Load;
 use crate::elements::point_on_line::PointOnLine;
-use crate::elements::torsion_spring::{TorsionSpring, Twist};
+use crate::elements::torsion_spring::{TorsionAngle, TorsionSpring};
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::model::ModelOwner;
@@ -46,8 +46,8 @@ of_a_space! {
         load.body, load.frame, load.force.to_f64(), load.torque.to_f64(), load.from, load.until;
     PointOnLine, "PointOnLine {{ direction: {}, stiffness: {}, free_length: {} }}": line =>
         line.direction.to_f64(), line.stiffness.to_f64(), line.free_length.to_f64();
-    Twist, "Twist {{ angle: {}, gradient: {} }}": twist =>
-        twist.angle.to_f64(), twist.gradient.to_f64();
+    TorsionAngle, "Twist {{ angle: {}, gradient: {} }}": torsion_angle =>
+        torsion_angle.angle.to_f64(), torsion_angle.gradient.to_f64();
     TorsionSpring,
         "TorsionSpring {{ a: {}, b: {}, axis: {}, reference: {}, stiffness: {}, preload: {}, \
          damper: {} }}": spring =>

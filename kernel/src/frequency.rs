@@ -69,14 +69,18 @@ fn reaches<M: ModelOwner>(model: &M) -> M::PerBody<f64> {
     let view = model.view();
     let mut reaches = model.per_body(0.0);
     for group in view.groups {
-        for star in 0..group.stars as usize {
-            let tips = (0..group.arms as usize).map(|arm| (group.b, group.tips(star) + arm));
-            for (body, point) in core::iter::once((group.a, group.centre(star))).chain(tips) {
+        for triple in 0..group.triples as usize {
+            let endpoints =
+                (0..group.arms as usize).map(|arm| (group.b, group.endpoints(triple) + arm));
+            for (body, point) in core::iter::once((group.a, group.centre(triple))).chain(endpoints)
+            {
                 let point = view.points.get(point);
-                if let (Some(reach), Some(point)) = (reaches.as_mut().get_mut(body.row()), point) {
+                if let (Some(elongation), Some(point)) =
+                    (reaches.as_mut().get_mut(body.row()), point)
+                {
                     let [x, y, z] = M::Precision::local_to_f64(point);
                     let away = libm::sqrt(x * x + y * y + z * z);
-                    *reach = if away > *reach { away } else { *reach };
+                    *elongation = if away > *elongation { away } else { *elongation };
                 }
             }
         }
@@ -234,10 +238,10 @@ fn start_direction<S: Space>(direction: &mut [Increment<S>]) {
 /// The largest component of `M^-1/2·x`; rotations count at the body's largest point distance.
 fn largest_move<S: Space>(bodies: &[Body<S>], direction: &[Increment<S>], reaches: &[f64]) -> f64 {
     let mut largest = 0.0_f64;
-    for ((body, x), &reach) in bodies.iter().zip(direction).zip(reaches) {
-        let reach = S::Real::from_f64(if reach > 1.0 { reach } else { 1.0 });
+    for ((body, x), &elongation) in bodies.iter().zip(direction).zip(reaches) {
+        let elongation = S::Real::from_f64(if elongation > 1.0 { elongation } else { 1.0 });
         let linear = x.linear * body.inverse_mass.sqrt();
-        let angular = x.angular.scale(body.inverse_inertia.root()) * reach;
+        let angular = x.angular.scale(body.inverse_inertia.root()) * elongation;
         for component in linear.to_f64().into_iter().chain(angular.to_f64()) {
             largest = if component.abs() > largest { component.abs() } else { largest };
         }

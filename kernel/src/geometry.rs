@@ -9,8 +9,8 @@ use core::fmt::Debug;
 use core::marker::PhantomData;
 
 use crate::attitude::Attitude;
+use crate::elongation::{AtRest, Beside, Beyond, Elongation};
 use crate::pass_sum::{PassSum, Sum};
-use crate::reach::{AtRest, Beside, Beyond, Reach};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment, Space, Vector};
 use crate::vector::{Quaternion, Rotation, Vec3};
@@ -23,7 +23,7 @@ pub struct Limits {
     /// \[m\] a centre of mass or a point of the ground from the origin, along each axis.
     pub extent: f64,
     /// \[m\] a point of a body from its centre of mass.
-    pub reach: f64,
+    pub elongation: f64,
     /// \[m\] a centre of mass in one drift.
     pub drift: f64,
     /// \[m\] the ground that an input moves.
@@ -102,23 +102,23 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// [`Self::displacement`] with a free length \[m\]: a precision may represent the difference of the lengths more
     /// accurately than the displacement.
     #[inline(always)]
-    fn reach(
+    fn elongation(
         from: &Self::Location,
         to: &Self::Location,
         free_length: Self::Real,
-    ) -> Reach<Self::Vector> {
+    ) -> Elongation<Self::Vector> {
         let _ = free_length;
-        Reach { way: Self::displacement(from, to), more: None }
+        Elongation { way: Self::displacement(from, to), more: None }
     }
     /// Whether reference data of TSDAs is stored: the offset of a triple's centre from its reference position in B is
     /// then more accurate than its distance from the points of B.
     const RESTS: bool = false;
     /// The reference data of a triple's TSDAs with the centre at `centre`, in the axes of the body of `frame`, which
-    /// has the endpoints `tips`.
+    /// has the endpoints `endpoints`.
     fn find_rests(
         _frame: &Self::Frame,
         _centre: &Self::Location,
-        _tips: &[Self::Local],
+        _endpoints: &[Self::Local],
         _free_lengths: &[Self::Real],
         _rests: &mut [Self::Rest],
     ) {
@@ -132,13 +132,13 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     ) -> Self::Apart {
         Self::Apart::default()
     }
-    /// The offset of a triple's centre, a point of A, from its reference position in B; `tip` is the triple's first
+    /// The offset of a triple's centre, a point of A, from its reference position in B; `endpoint` is the triple's first
     /// point of B.
     #[inline(always)]
     fn beside<const ARMS: usize>(
         _apart: &Self::Apart,
         (_a, _centre): (Option<&Self::Frame>, &Self::Local),
-        (_b, _tip): (&Self::Frame, &Self::Local),
+        (_b, _endpoint): (&Self::Frame, &Self::Local),
         _rests: &[Self::Rest; ARMS],
     ) -> Beside<Self::Vector> {
         Beside::default()
@@ -147,7 +147,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     #[inline(always)]
     fn beyond<const ARMS: usize>(
         (_a, _centres): (Option<&Self::Frame>, [&Self::Local; 2]),
-        (_b, _tip): (&Self::Frame, &Self::Local),
+        (_b, _endpoint): (&Self::Frame, &Self::Local),
         _rests: [&[Self::Rest; ARMS]; 2],
     ) -> Beyond<Self::Vector> {
         Beyond::default()
@@ -196,10 +196,10 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn accelerate(stored: &mut Self::Velocity, increment: Self::Vector);
     /// Whether gravity acts on velocities and not by weights. The forces on a body are rounded to the last digit of the
     /// largest: a weight among them is rounded in the same direction step after step, which does work.
-    const FALLS: bool = false;
+    const HAS_GRAVITY_STEP: bool = false;
     /// Adds the increment by gravity to a stored velocity, to be rounded with the next [`Self::accelerate`].
     #[inline(always)]
-    fn fall(stored: &mut Self::Velocity, increment: Self::Vector) {
+    fn apply_gravity(stored: &mut Self::Velocity, increment: Self::Vector) {
         Self::accelerate(stored, increment);
     }
     /// Adds an increment to a stored angular velocity.
@@ -219,7 +219,11 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
 
     /// Advances a stored position by its velocity for `time` \[s\].
     #[inline(always)]
-    fn fly(position: &mut Self::Position, velocity: &Self::Velocity, time: Self::Real) {
+    fn advance_position(
+        position: &mut Self::Position,
+        velocity: &Self::Velocity,
+        time: Self::Real,
+    ) {
         Self::translate(position, Self::velocity(velocity) * time);
     }
 

@@ -2,24 +2,27 @@
 //!
 //! `model => memory`. A scheme has only the memory that it needs.
 
-use crate::damping::Lever;
+use crate::damping::DampingMode;
 use crate::freedoms::Freedoms as _;
 use crate::model::{ModelOwner, SpaceOf};
-use crate::solve::Seat;
+use crate::solve::LumpedJoint;
 use crate::space::{BlockOf, Space};
 
 /// The storage of a scheme in its plant.
-pub trait Keep {
+pub trait Storage {
     /// Whether there is a matrix, which requires a model with an elimination order.
     const MATRIX: bool = false;
     /// Whether there is another for half a step.
     const HALVES: bool = false;
     /// Memory for a model's damping modes.
-    type Levers<M: ModelOwner>: AsRef<[Lever<M::Precision>]> + AsMut<[Lever<M::Precision>]>;
+    type DampingModes<M: ModelOwner>: AsRef<[DampingMode<M::Precision>]>
+        + AsMut<[DampingMode<M::Precision>]>;
     /// Memory for lumped joints: a point and an axis.
-    type Seats<M: ModelOwner>: AsRef<[Seat<SpaceOf<M>>]> + AsMut<[Seat<SpaceOf<M>>]>;
+    type LumpedJoints<M: ModelOwner>: AsRef<[LumpedJoint<SpaceOf<M>>]>
+        + AsMut<[LumpedJoint<SpaceOf<M>>]>;
     /// The same for half a step.
-    type HalfSeats<M: ModelOwner>: AsRef<[Seat<SpaceOf<M>>]> + AsMut<[Seat<SpaceOf<M>>]>;
+    type HalfLumpedJoints<M: ModelOwner>: AsRef<[LumpedJoint<SpaceOf<M>>]>
+        + AsMut<[LumpedJoint<SpaceOf<M>>]>;
     /// Memory for the blocks of bodies.
     type Bodies<M: ModelOwner>: AsMut<[BlockOf<SpaceOf<M>>]>;
     /// Memory for the blocks of pairs of bodies.
@@ -30,48 +33,48 @@ pub trait Keep {
 }
 
 /// The storage of `K` for a model.
-pub struct Kept<K: Keep + ?Sized, M: ModelOwner> {
-    pub(crate) levers: K::Levers<M>,
-    pub(crate) seats: K::Seats<M>,
-    pub(crate) half_seats: K::HalfSeats<M>,
+pub struct Kept<K: Storage + ?Sized, M: ModelOwner> {
+    pub(crate) modes: K::DampingModes<M>,
+    pub(crate) lumped_joints: K::LumpedJoints<M>,
+    pub(crate) half_lumped_joints: K::HalfLumpedJoints<M>,
     pub(crate) bodies: K::Bodies<M>,
     pub(crate) pairs: K::Pairs<M>,
 }
 
 /// No storage.
 #[derive(Clone, Copy, Debug)]
-pub struct Nothing;
+pub struct NoStorage;
 
-impl Keep for Nothing {
-    type Levers<M: ModelOwner> = [Lever<M::Precision>; 0];
-    type Seats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
-    type HalfSeats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
+impl Storage for NoStorage {
+    type DampingModes<M: ModelOwner> = [DampingMode<M::Precision>; 0];
+    type LumpedJoints<M: ModelOwner> = [LumpedJoint<SpaceOf<M>>; 0];
+    type HalfLumpedJoints<M: ModelOwner> = [LumpedJoint<SpaceOf<M>>; 0];
     type Bodies<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
     type Pairs<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
 
     #[inline]
     fn memory<M: ModelOwner>(_: &M) -> Kept<Self, M> {
-        Kept { levers: [], seats: [], half_seats: [], bodies: [], pairs: [] }
+        Kept { modes: [], lumped_joints: [], half_lumped_joints: [], bodies: [], pairs: [] }
     }
 }
 
 /// Damping modes: twenty-six words per damper in space, twenty-one in the plane.
 #[derive(Clone, Copy, Debug)]
-pub struct Levers;
+pub struct DampingModes;
 
-impl Keep for Levers {
-    type Levers<M: ModelOwner> = M::PerDamper<Lever<M::Precision>>;
-    type Seats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
-    type HalfSeats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
+impl Storage for DampingModes {
+    type DampingModes<M: ModelOwner> = M::PerDamper<DampingMode<M::Precision>>;
+    type LumpedJoints<M: ModelOwner> = [LumpedJoint<SpaceOf<M>>; 0];
+    type HalfLumpedJoints<M: ModelOwner> = [LumpedJoint<SpaceOf<M>>; 0];
     type Bodies<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
     type Pairs<M: ModelOwner> = [BlockOf<SpaceOf<M>>; 0];
 
     #[inline]
     fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M> {
         Kept {
-            levers: model.per_damper(Lever::default()),
-            seats: [],
-            half_seats: [],
+            modes: model.per_damper(DampingMode::default()),
+            lumped_joints: [],
+            half_lumped_joints: [],
             bodies: [],
             pairs: [],
         }
@@ -82,11 +85,11 @@ impl Keep for Levers {
 #[derive(Clone, Copy, Debug)]
 pub struct Matrix;
 
-impl Keep for Matrix {
+impl Storage for Matrix {
     const MATRIX: bool = true;
-    type Levers<M: ModelOwner> = [Lever<M::Precision>; 0];
-    type Seats<M: ModelOwner> = M::PerHome<Seat<SpaceOf<M>>>;
-    type HalfSeats<M: ModelOwner> = [Seat<SpaceOf<M>>; 0];
+    type DampingModes<M: ModelOwner> = [DampingMode<M::Precision>; 0];
+    type LumpedJoints<M: ModelOwner> = M::PerSlot<LumpedJoint<SpaceOf<M>>>;
+    type HalfLumpedJoints<M: ModelOwner> = [LumpedJoint<SpaceOf<M>>; 0];
     type Bodies<M: ModelOwner> = M::PerBody<BlockOf<SpaceOf<M>>>;
     type Pairs<M: ModelOwner> = M::PerPair<BlockOf<SpaceOf<M>>>;
 
@@ -94,8 +97,8 @@ impl Keep for Matrix {
     fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M> {
         let empty = <SpaceOf<M> as Space>::Row::EMPTY;
         let (bodies, pairs) = (model.per_body(empty), model.per_pair(empty));
-        let seats = model.per_home(Seat::default());
-        Kept { levers: [], seats, half_seats: [], bodies, pairs }
+        let lumped_joints = model.per_slot(LumpedJoint::default());
+        Kept { modes: [], lumped_joints, half_lumped_joints: [], bodies, pairs }
     }
 }
 
@@ -103,19 +106,19 @@ impl Keep for Matrix {
 #[derive(Clone, Copy, Debug)]
 pub struct Matrices;
 
-impl Keep for Matrices {
+impl Storage for Matrices {
     const MATRIX: bool = true;
     const HALVES: bool = true;
-    type Levers<M: ModelOwner> = [Lever<M::Precision>; 0];
-    type Seats<M: ModelOwner> = M::PerHome<Seat<SpaceOf<M>>>;
-    type HalfSeats<M: ModelOwner> = M::PerHome<Seat<SpaceOf<M>>>;
+    type DampingModes<M: ModelOwner> = [DampingMode<M::Precision>; 0];
+    type LumpedJoints<M: ModelOwner> = M::PerSlot<LumpedJoint<SpaceOf<M>>>;
+    type HalfLumpedJoints<M: ModelOwner> = M::PerSlot<LumpedJoint<SpaceOf<M>>>;
     type Bodies<M: ModelOwner> = M::PerBody<BlockOf<SpaceOf<M>>>;
     type Pairs<M: ModelOwner> = M::PerPair<BlockOf<SpaceOf<M>>>;
 
     #[inline]
     fn memory<M: ModelOwner>(model: &M) -> Kept<Self, M> {
-        let Kept { seats, bodies, pairs, .. } = Matrix::memory(model);
-        let half_seats = model.per_home(Seat::default());
-        Kept { levers: [], seats, half_seats, bodies, pairs }
+        let Kept { lumped_joints, bodies, pairs, .. } = Matrix::memory(model);
+        let half_lumped_joints = model.per_slot(LumpedJoint::default());
+        Kept { modes: [], lumped_joints, half_lumped_joints, bodies, pairs }
     }
 }

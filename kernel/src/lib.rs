@@ -9,14 +9,14 @@
 //! - [`words`], `square_root`, [`real`], [`vector`], [`freedoms`], [`space`], [`plane`], [`arctangent`]: arithmetic,
 //!   including blocks of numbers, and the words in which state is stored.
 //! - `compositions`, [`index`]: coefficients of schemes, and indices of a model's parts.
-//! - [`attitude`], [`reach`], [`pass_sum`], [`geometry`], [`fixed`], [`planar`], [`euler`], [`loose`]: a precision is a
+//! - [`attitude`], [`elongation`], [`pass_sum`], [`geometry`], [`fixed`], [`planar`], [`euler`], [`approximate`]: a precision is a
 //!   type: [`F64`], [`F32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an orientation is a quaternion or, as
 //!   in the paper, Euler angles.
 //! - [`body`], [`rotation`], `lockstep`: one rigid body, and its rotation, alone or in lanes.
 //! - [`status`], [`elements`], [`schedule`], [`sources`]: failures; the element laws, one per file; the timing of loads
 //!   and inputs; sines and tables that drive inputs.
-//! - `record`, [`laws`]: forces on two bodies; user-defined laws, each a type that a model lists.
-//! - [`mod@model`], [`sketch`], [`state`]: read-only constants of bodies and elements, and their source form; the state
+//! - `force_pair`, [`laws`]: forces on two bodies; user-defined laws, each a type that a model lists.
+//! - [`mod@model`], [`model_spec`], [`state`]: read-only constants of bodies and elements, and their source form; the state
 //!   and its hash.
 //! - `pose`, `sensors`, [`forces`], [`damping`]: points of elements; motion sensors; one force evaluation; dampers as
 //!   impulses.
@@ -32,15 +32,15 @@
 //! - [`builder`], `convert`, `format`: models assembled at run time, nalgebra's types, defmt's (features).
 //!
 //! ```
-//! use dbd_kernel::sketch::{Sketch, Spring, Start};
+//! use dbd_kernel::model_spec::{ModelSpec, Spring, Start};
 //! use dbd_kernel::{BodyIndex, Leapfrog, Plant, model};
 //!
 //! // A mass of 2 kg on a spring of 50 N/m, 0.1 m beyond its free length of 1 m.
 //! const SPRING: Spring = Spring { stiffness: 50.0, damping: 0.0, free_length: 1.0 };
-//! const SKETCH: Sketch = Sketch::new()
+//! const MODEL_SPEC: ModelSpec = ModelSpec::new()
 //!     .body(2.0, [0.1; 3], Start::at([1.1, 0.0, 0.0]))
 //!     .tsda([BodyIndex::WORLD, BodyIndex(0)], [[0.0; 3]; 2], SPRING);
-//! model!(static OSCILLATOR: F64 = SKETCH);
+//! model!(static OSCILLATOR: F64 = MODEL_SPEC);
 //!
 //! let mut plant = Plant::new(&OSCILLATOR, Leapfrog, 1e-3)?;
 //! plant.advance(1_000).ok()?;
@@ -59,7 +59,7 @@
 //! | `defmt` | on a microcontroller, `defmt::Format` on every public type |
 //! | `heapless` | [`builder`]: models of fixed capacity, assembled at run time |
 //! | `nalgebra` | `From` and `Into` between the vectors and quaternions of both |
-//! | `micromath` | [`loose`]: single precision with micromath's square root, for comparison |
+//! | `micromath` | [`approximate`]: single precision with micromath's square root, for comparison |
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -67,6 +67,8 @@
 #[cfg(any(test, target_family = "wasm"))]
 extern crate std;
 
+#[cfg(feature = "micromath")]
+pub mod approximate;
 pub mod arctangent;
 pub mod attitude;
 pub mod body;
@@ -77,11 +79,13 @@ mod compositions;
 mod convert;
 pub mod damping;
 pub mod elements;
+pub mod elongation;
 pub mod energy;
 pub mod euler;
 pub mod extents;
 pub mod fingerprint;
 pub mod fixed;
+mod force_pair;
 pub mod forces;
 #[cfg(all(feature = "defmt", target_os = "none"))]
 mod format;
@@ -93,25 +97,21 @@ pub mod index;
 pub mod keep;
 pub mod laws;
 mod lockstep;
-#[cfg(feature = "micromath")]
-pub mod loose;
 pub mod model;
+pub mod model_spec;
 pub mod pass_sum;
 pub mod planar;
 pub mod plane;
 pub mod plant;
 mod pose;
 pub mod power;
-pub mod reach;
 pub mod readouts;
 pub mod real;
-mod record;
 mod refusal;
 pub mod rotation;
 pub mod schedule;
 pub mod schemes;
 mod sensors;
-pub mod sketch;
 pub mod snapshot;
 pub mod solve;
 pub mod sources;

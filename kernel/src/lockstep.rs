@@ -7,8 +7,8 @@ use crate::attitude::Attitude as _;
 use crate::body::Body;
 use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
-use crate::real::{Real, Truth as _};
-use crate::rotation::{Axis, TruthOf, about_x, about_y, about_z, half_turn, turn_unless};
+use crate::real::{Mask as _, Real};
+use crate::rotation::{Axis, MaskOf, about_x, about_y, about_z, half_turn, turn_unless};
 use crate::space::{Linear as _, Moment as _};
 use crate::vector::Vec3;
 
@@ -47,7 +47,7 @@ fn tumble<P: Geometry>(
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
     time: P::Real,
-    others: TruthOf<P>,
+    others: MaskOf<P>,
 ) {
     let one = P::Real::ONE;
     let Vec3 { x, y, z } = body.inertia.in_space();
@@ -81,7 +81,7 @@ fn split<P: Geometry>(
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
     time: P::Real,
-    others: TruthOf<P>,
+    others: MaskOf<P>,
     [(first, share), (second, other)]: [(Axis, P::Real); 2],
 ) {
     let zero = P::Real::ZERO;
@@ -110,7 +110,7 @@ fn turn<P: Geometry>(
     body: &Body<P::Space>,
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
-    (time, without): (P::Real, TruthOf<P>),
+    (time, without): (P::Real, MaskOf<P>),
 ) {
     match axis {
         Axis::X => about_x::<P>(body, orientation, rate, time, without),

@@ -101,8 +101,8 @@ macro_rules! linear {
     ($name:ident, $($component:ident),+) => {
         impl<R: Real> Lanewise<R> for $name<R> {
             #[inline(always)]
-            fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self {
-                Self::new($(R::pick(truth, then.$component, otherwise.$component)),+)
+            fn select(mask: R::Mask, then: Self, otherwise: Self) -> Self {
+                Self::new($(R::pick(mask, then.$component, otherwise.$component)),+)
             }
         }
         impl<R: Real> Add for $name<R> {

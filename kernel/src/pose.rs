@@ -6,10 +6,10 @@
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
 use crate::elements::input::InputKind;
-use crate::elements::point_law::Stretch;
+use crate::elements::point_law::Deformation;
 use crate::elements::point_on_line::Projection;
-use crate::elements::torsion_spring::{TorsionSpring, Twist};
-use crate::elements::universal::{Lean, Universal};
+use crate::elements::torsion_spring::{TorsionAngle, TorsionSpring};
+use crate::elements::universal::{AxisError, Universal};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
@@ -208,7 +208,7 @@ pub(crate) struct Placed<'m, V: Vector> {
     /// Its index among the elements of its law.
     pub(crate) index: usize,
     /// From its first point to its second, and its line.
-    pub(crate) stretch: Stretch<V>,
+    pub(crate) deformation: Deformation<V>,
     /// The lever arm of the first point, world axes; 0 on the ground; on a line that of the foot, of a revolute joint
     /// that of the second point.
     pub(crate) arm_a: V,
@@ -225,10 +225,10 @@ pub(crate) fn placed<'m, P: Geometry, T: Terms<P>>(
     i: usize,
 ) -> Option<Placed<'m, P::Vector>> {
     let arms = group.arms.max(1) as usize;
-    let (star, arm) = (i / arms, i % arms);
+    let (triple, arm) = (i / arms, i % arms);
     let [end_a, end_b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
-    let a = end_a.place(model.points.get(group.centre(star))?);
-    let b = end_b.place(model.points.get(group.tips(star) + arm)?);
+    let a = end_a.place(model.points.get(group.centre(triple))?);
+    let b = end_b.place(model.points.get(group.endpoints(triple) + arm)?);
     between(model, [&end_a, &end_b], [a, b], (number, group), i)
 }
 
@@ -250,25 +250,28 @@ fn between<'m, P: Geometry, T: Terms<P>>(
         displacement = projection.deflection;
         arm_a = end_a.arm_at(arm_a, direction * projection.slide);
     }
-    let (mut ratio, mut leans) = (P::Real::ZERO, P::Real::ZERO);
+    let (mut ratio, mut axis_errors) = (P::Real::ZERO, P::Real::ZERO);
     if T::REVOLUTES && group.law == Law::Revolute {
         let revolute = model.revolutes.get(index)?;
         let [a, b] = [end_a.to_world(revolute.levers[0]), end_b.to_world(revolute.levers[1])];
         (direction, ratio) = (unit(a), P::Real::ONE + revolute.along * a.dot(a));
-        leans = (b - a).dot(b - a).sqrt();
+        axis_errors = (b - a).dot(b - a).sqrt();
         arm_a = end_a.arm_at(arm_a, displacement);
     }
     if T::UNIVERSALS && group.law == Law::Universal {
-        leans = lean(model.universals.get(index)?, [end_a, end_b]).by;
+        axis_errors = axis_error(model.universals.get(index)?, [end_a, end_b]).by;
     }
-    let stretch = Stretch { displacement, direction, ratio, lean: leans };
-    Some(Placed { group, number, index, stretch, arm_a, arm_b })
+    let deformation = Deformation { displacement, direction, ratio, axis_error: axis_errors };
+    Some(Placed { group, number, index, deformation, arm_a, arm_b })
 }
 
 /// The axis error of a universal joint between two ends.
 #[inline(always)]
-fn lean<P: Geometry>(universal: &Universal<P::Space>, [a, b]: [&End<'_, P>; 2]) -> Lean<P::Space> {
-    Lean::new(a.to_world(universal.lever), b.to_world(universal.axis))
+fn axis_error<P: Geometry>(
+    universal: &Universal<P::Space>,
+    [a, b]: [&End<'_, P>; 2],
+) -> AxisError<P::Space> {
+    AxisError::new(a.to_world(universal.lever), b.to_world(universal.axis))
 }
 
 fn unit<V: Vector>(v: V) -> V {
@@ -298,14 +301,14 @@ pub(crate) fn held_turns<P: Geometry, T: Terms<P>>(
                 return ([P::Moment::ZERO; 2], 0);
             };
             let [a, b] = ends();
-            ([lean(universal, [&a, &b]).gradient, P::Moment::ZERO], 1)
+            ([axis_error(universal, [&a, &b]).gradient, P::Moment::ZERO], 1)
         }
         _ => ([P::Moment::ZERO; 2], 0),
     }
 }
 
 /// The largest number of points of the second body joined to one point of the first.
-pub(crate) const MOST_ARMS: usize = 3;
+pub(crate) const MAX_ARMS: usize = 3;
 
 /// A world point, and its lever arm.
 pub(crate) type Spot<P> = (<P as Geometry>::Location, <P as Geometry>::Vector);
@@ -318,19 +321,22 @@ pub(crate) fn each_element<'m, P: Geometry, T: Terms<P>>(
 ) {
     for (number, group) in model.groups.iter().enumerate() {
         let [end_a, end_b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
-        let (stars, arms) = (group.stars as usize, group.arms as usize);
-        let mut tips = [None; MOST_ARMS];
-        for star in 0..stars {
-            let Some(centre) = model.points.get(group.centre(star)) else { break };
+        let (triples, arms) = (group.triples as usize, group.arms as usize);
+        let mut endpoints = [None; MAX_ARMS];
+        for triple in 0..triples {
+            let Some(centre) = model.points.get(group.centre(triple)) else { break };
             let a = end_a.place(centre);
-            let is_new = star == 0 || !group.shared;
-            for (arm, tip) in tips.iter_mut().enumerate().take(arms) {
+            let is_new = triple == 0 || !group.shared;
+            for (arm, endpoint) in endpoints.iter_mut().enumerate().take(arms) {
                 if is_new {
-                    *tip = model.points.get(group.tips(star) + arm).map(|tip| end_b.place(tip));
+                    *endpoint = model
+                        .points
+                        .get(group.endpoints(triple) + arm)
+                        .map(|endpoint| end_b.place(endpoint));
                 }
-                let i = star * arms + arm;
-                let element =
-                    tip.and_then(|b| between(model, [&end_a, &end_b], [a, b], (number, group), i));
+                let i = triple * arms + arm;
+                let element = endpoint
+                    .and_then(|b| between(model, [&end_a, &end_b], [a, b], (number, group), i));
                 if let Some(element) = element {
                     visit(element);
                 }
@@ -344,24 +350,24 @@ pub(crate) type CountOf<P> = <<P as Geometry>::Real as Real>::Count;
 
 /// The torsion angle of a torsion spring, `None` where it is undefined.
 #[inline(always)]
-pub(crate) fn twist_of<P: Geometry>(
+pub(crate) fn torsion_angle_of<P: Geometry>(
     spring: &TorsionSpring<P::Space>,
     bodies: &[BodyState<P>],
     turns: CountOf<P>,
-) -> Option<Twist<P::Space>> {
+) -> Option<TorsionAngle<P::Space>> {
     if P::Real::LANES == 1 {
-        twist_apart(spring, bodies, turns)
+        torsion_angle_apart(spring, bodies, turns)
     } else {
-        twist_here(spring, bodies, turns)
+        torsion_angle_here(spring, bodies, turns)
     }
 }
 
-fn twist_apart<P: Geometry>(
+fn torsion_angle_apart<P: Geometry>(
     spring: &TorsionSpring<P::Space>,
     bodies: &[BodyState<P>],
     turns: CountOf<P>,
-) -> Option<Twist<P::Space>> {
-    twist_here(spring, bodies, turns)
+) -> Option<TorsionAngle<P::Space>> {
+    torsion_angle_here(spring, bodies, turns)
 }
 
 /// The gradient of a torsion spring's angle in the axes of its first body, `None` where it is undefined.
@@ -380,13 +386,13 @@ pub(crate) fn gradient_of<P: Geometry>(
 }
 
 #[inline(always)]
-fn twist_here<P: Geometry>(
+fn torsion_angle_here<P: Geometry>(
     spring: &TorsionSpring<P::Space>,
     bodies: &[BodyState<P>],
     turns: CountOf<P>,
-) -> Option<Twist<P::Space>> {
+) -> Option<TorsionAngle<P::Space>> {
     let orientation = |row: usize| bodies.get(row).map(|s| &s.orientation);
     let relative =
         P::Orientation::relative(orientation(spring.a.row()), orientation(spring.b.row()));
-    Some(spring.twist(&spring.since_start(relative)?, turns))
+    Some(spring.torsion_angle(&spring.since_start(relative)?, turns))
 }

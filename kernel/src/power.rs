@@ -6,7 +6,7 @@
 
 use crate::forces::{
     At, Dampers, DampersLeft, Evaluation, ExplicitDampers, Instant, Memories, Wrench,
-    evaluate_out_of_line, push_loads_and_inputs, record,
+    evaluate_out_of_line, force_pair, push_loads_and_inputs,
 };
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -36,7 +36,7 @@ pub struct Power<R> {
 /// The powers in a state, with loads active in its step of `step_size` \[s\], dampers by their law `c·v²`.
 ///
 /// # Errors
-/// [`Cause::UndefinedTwist`] names the first torsion spring whose torsion angle is undefined.
+/// [`Cause::UndefinedTorsionAngle`] names the first torsion spring whose torsion angle is undefined.
 pub fn power<M: ModelOwner>(
     model: &M,
     state: &State<M>,
@@ -79,12 +79,12 @@ pub fn power<M: ModelOwner>(
         let rate = End::new(&view, places, anchor, None).velocity;
         let on = (bodies, &[][..]);
         let records = [
-            record::<_, _, ExplicitDampers>(&view, places, on, group),
-            record::<_, _, DampersLeft>(&view, places, on, group),
+            force_pair::<_, _, ExplicitDampers>(&view, places, on, group),
+            force_pair::<_, _, DampersLeft>(&view, places, on, group),
         ];
-        for (sum, record) in ground.iter_mut().zip(records) {
-            let Some(record) = record else { continue };
-            *sum = *sum + sign * record.force.dot(rate);
+        for (sum, force_pair) in ground.iter_mut().zip(records) {
+            let Some(force_pair) = force_pair else { continue };
+            *sum = *sum + sign * force_pair.force.dot(rate);
         }
     }
     let [whole, springs] = ground;

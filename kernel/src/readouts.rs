@@ -9,7 +9,7 @@ use crate::body::BodyState;
 use crate::elements::element::Element;
 use crate::elements::input::InputKind;
 use crate::elements::source::Sensor;
-use crate::forces::{self, ExplicitDampers, Record};
+use crate::forces::{self, ExplicitDampers, ForcePair};
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex, LawIndex};
 use crate::laws::{Instant, Laws as _};
@@ -248,7 +248,7 @@ fn tension<P: Geometry, T: Terms<P>>(
     let placed = placed(view, places, (row, group), element)?;
     let Element::Tsda(tsda) = view.element(group.law, placed.index)? else { return None };
     let end = |body: BodyIndex| End::new(view, places, body, Some(bodies));
-    let d = placed.stretch.displacement;
+    let d = placed.deformation.displacement;
     let (a, b) = (end(group.a), end(group.b));
     let v_rel = b.point_velocity(placed.arm_b) - a.point_velocity(placed.arm_a);
     let clearance = view.clearance(group);
@@ -275,9 +275,10 @@ fn force<P: Geometry, T: Terms<P>>(
     bodies: &[BodyState<P>],
     (row, group): (usize, &Group),
 ) -> P::Vector {
-    let record = forces::record::<P, T, ExplicitDampers>(view, places, (bodies, &[]), group)
-        .unwrap_or(Record::ZERO);
-    -forces::with_actuators(view, places, row, record.force)
+    let force_pair =
+        forces::force_pair::<P, T, ExplicitDampers>(view, places, (bodies, &[]), group)
+            .unwrap_or(ForcePair::ZERO);
+    -forces::with_actuators(view, places, row, force_pair.force)
 }
 
 /// Visits the tension \[N\] of every TSDA in the order of the groups, as

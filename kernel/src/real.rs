@@ -31,14 +31,14 @@ impl Constant {
 }
 
 /// The result of a comparison: one mask, or one per lane.
-pub trait Truth: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
     /// Whether it is set in any lane.
     fn any(self) -> bool;
     /// Whether it is set in every lane.
     fn all(self) -> bool;
 }
 
-impl Truth for bool {
+impl Mask for bool {
     #[inline(always)]
     fn any(self) -> bool {
         self
@@ -51,21 +51,21 @@ impl Truth for bool {
 
 /// A value that can be selected lane by lane.
 pub trait Lanewise<R: Real>: Copy {
-    /// `then` in each lane where `truth` is set, else `otherwise`.
-    fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self;
+    /// `then` in each lane where `mask` is set, else `otherwise`.
+    fn select(mask: R::Mask, then: Self, otherwise: Self) -> Self;
 }
 
 impl<R: Real> Lanewise<R> for R {
     #[inline(always)]
-    fn select(truth: R::Truth, then: R, otherwise: R) -> R {
-        R::pick(truth, then, otherwise)
+    fn select(mask: R::Mask, then: R, otherwise: R) -> R {
+        R::pick(mask, then, otherwise)
     }
 }
 
 impl<R: Real, A: Lanewise<R>, B: Lanewise<R>> Lanewise<R> for (A, B) {
     #[inline(always)]
-    fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self {
-        (A::select(truth, then.0, otherwise.0), B::select(truth, then.1, otherwise.1))
+    fn select(mask: R::Mask, then: Self, otherwise: Self) -> Self {
+        (A::select(mask, then.0, otherwise.0), B::select(mask, then.1, otherwise.1))
     }
 }
 
@@ -88,7 +88,7 @@ pub trait Real:
     /// The number of lanes.
     const LANES: usize;
     /// The result of its comparisons.
-    type Truth: Truth;
+    type Mask: Mask;
     /// A revolution count, one per lane.
     type Count: Copy;
 
@@ -150,18 +150,18 @@ pub trait Real:
     fn from_words(source: &mut impl WordSource) -> Self;
 
     /// A mask of every lane.
-    fn truth(holds: bool) -> Self::Truth;
+    fn mask(holds: bool) -> Self::Mask;
     /// Whether the numbers are equal.
-    fn equals(self, other: Self) -> Self::Truth;
+    fn equals(self, other: Self) -> Self::Mask;
     /// Whether this number is the smaller one.
-    fn less_than(self, other: Self) -> Self::Truth;
+    fn less_than(self, other: Self) -> Self::Mask;
     /// Whether this number is at most the other; `false` for NaN.
-    fn at_most(self, other: Self) -> Self::Truth;
-    /// `then` in each lane where `truth` is set, else `otherwise`.
-    fn pick(truth: Self::Truth, then: Self, otherwise: Self) -> Self;
-    /// The number, where `truth` is set. Other lanes become NaN, as does every result of theirs; code that steps lanes
+    fn at_most(self, other: Self) -> Self::Mask;
+    /// `then` in each lane where `mask` is set, else `otherwise`.
+    fn pick(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
+    /// The number, where `mask` is set. Other lanes become NaN, as does every result of theirs; code that steps lanes
     /// detects that.
-    fn only_where(self, truth: Self::Truth) -> Option<Self>;
+    fn only_where(self, mask: Self::Mask) -> Option<Self>;
 
     /// Revolution counts in stored form, one per lane.
     fn counts(stored: &[i32]) -> &[Self::Count];
@@ -170,11 +170,11 @@ pub trait Real:
     /// The number nearest to a revolution count.
     fn from_count(count: Self::Count) -> Self;
     /// Whether a revolution count is odd.
-    fn is_odd(count: Self::Count) -> Self::Truth;
+    fn is_odd(count: Self::Count) -> Self::Mask;
     /// Whether a revolution count is 0.
-    fn is_nil(count: Self::Count) -> Self::Truth;
-    /// A revolution count changed where `truth` is set: incremented where `up` is set, too, else decremented.
-    fn recount(count: Self::Count, truth: Self::Truth, up: Self::Truth) -> Self::Count;
+    fn is_nil(count: Self::Count) -> Self::Mask;
+    /// A revolution count changed where `mask` is set: incremented where `up` is set, too, else decremented.
+    fn recount(count: Self::Count, mask: Self::Mask, up: Self::Mask) -> Self::Count;
 
     /// `1/self`, or 0 where `self` is 0: avoids a division by zero for coincident points.
     #[inline(always)]
@@ -205,17 +205,17 @@ pub trait Real:
     }
 }
 
-/// `choose!(R, truth, then, otherwise)`: the value of `then` where `truth` is set, else that of `otherwise`. One number
+/// `choose!(R, mask, then, otherwise)`: the value of `then` where `mask` is set, else that of `otherwise`. One number
 /// takes a branch; lanes compute both and select. No closures: the compiler need not inline them, which lanes need, see
 /// [`crate::step`].
 macro_rules! choose {
-    ($real:ty, $truth:expr, $then:expr, $otherwise:expr) => {{
-        let truth = $truth;
+    ($real:ty, $mask:expr, $then:expr, $otherwise:expr) => {{
+        let mask = $mask;
         if <$real as $crate::real::Real>::LANES == 1 {
-            if $crate::real::Truth::any(truth) { $then } else { $otherwise }
+            if $crate::real::Mask::any(mask) { $then } else { $otherwise }
         } else {
             let (then, otherwise) = ($then, $otherwise);
-            $crate::real::Lanewise::<$real>::select(truth, then, otherwise)
+            $crate::real::Lanewise::<$real>::select(mask, then, otherwise)
         }
     }};
 }
@@ -226,11 +226,11 @@ pub(crate) use choose;
 macro_rules! one_lane {
     () => {
         const LANES: usize = 1;
-        type Truth = bool;
+        type Mask = bool;
         type Count = i32;
 
         #[inline(always)]
-        fn truth(holds: bool) -> bool {
+        fn mask(holds: bool) -> bool {
             holds
         }
         #[inline(always)]
@@ -246,12 +246,12 @@ macro_rules! one_lane {
             self <= other
         }
         #[inline(always)]
-        fn pick(truth: bool, then: Self, otherwise: Self) -> Self {
-            if truth { then } else { otherwise }
+        fn pick(mask: bool, then: Self, otherwise: Self) -> Self {
+            if mask { then } else { otherwise }
         }
         #[inline(always)]
-        fn only_where(self, truth: bool) -> Option<Self> {
-            if truth { Some(self) } else { None }
+        fn only_where(self, mask: bool) -> Option<Self> {
+            if mask { Some(self) } else { None }
         }
         #[inline(always)]
         fn counts(stored: &[i32]) -> &[i32] {
@@ -274,8 +274,8 @@ macro_rules! one_lane {
             count == 0
         }
         #[inline(always)]
-        fn recount(count: i32, truth: bool, up: bool) -> i32 {
-            if !truth {
+        fn recount(count: i32, mask: bool, up: bool) -> i32 {
+            if !mask {
                 count
             } else if up {
                 count.wrapping_add(1)

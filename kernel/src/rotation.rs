@@ -9,7 +9,7 @@ use crate::attitude::Attitude as _;
 use crate::body::Body;
 use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
-use crate::real::{Real, Truth as _};
+use crate::real::{Mask as _, Real};
 use crate::space::{Linear as _, Moment, Space as _};
 use crate::vector::{Quaternion, Vec3};
 
@@ -85,7 +85,7 @@ fn five_turns<P: Geometry>(
     rate: &mut P::Spin,
     time: P::Real,
 ) {
-    let (half, none) = (P::Real::HALF * time, P::Real::truth(false));
+    let (half, none) = (P::Real::HALF * time, P::Real::mask(false));
     about_x::<P>(body, orientation, rate, half, none);
     about_y::<P>(body, orientation, rate, half, none);
     about_z::<P>(body, orientation, rate, time, none);
@@ -111,7 +111,7 @@ pub fn free_rotor_of_order_four<P: Geometry>(
     if P::Space::PLANAR {
         return turn_in_plane::<P>(orientation, rate, time);
     }
-    let (zero, none) = (P::Real::ZERO, P::Real::truth(false));
+    let (zero, none) = (P::Real::ZERO, P::Real::mask(false));
     let w = P::spin(rate).in_space();
     match (w.x == zero, w.y == zero, w.z == zero) {
         (false, true, true) => about_x::<P>(body, orientation, rate, time, none),
@@ -137,7 +137,7 @@ fn tumble<P: Geometry>(
     rate: &mut P::Spin,
     time: P::Real,
 ) {
-    let (zero, one, none) = (P::Real::ZERO, P::Real::ONE, P::Real::truth(false));
+    let (zero, one, none) = (P::Real::ZERO, P::Real::ONE, P::Real::mask(false));
     let Vec3 { x, y, z } = body.inertia.in_space();
     let (ratio, inverse_ratio) = (body.ratio.in_space(), body.inverse_ratio.in_space());
     let lies_between =
@@ -209,14 +209,14 @@ impl<R: Real> Turn<R> {
 }
 
 /// The mask of a geometry's number.
-pub(crate) type TruthOf<P> = <<P as Geometry>::Real as Real>::Truth;
+pub(crate) type MaskOf<P> = <<P as Geometry>::Real as Real>::Mask;
 
 /// Rotates all except the resting lanes.
 #[inline(always)]
 pub(crate) fn turn_unless<P: Geometry>(
     orientation: &mut P::Orientation,
     turn: Quaternion<P::Real>,
-    resting: TruthOf<P>,
+    resting: MaskOf<P>,
 ) {
     let start = *orientation;
     P::Orientation::turn(orientation, turn);
@@ -230,7 +230,7 @@ fn turn_about<P: Geometry, const AXIS: usize>(
     rate: &P::Spin,
     time: P::Real,
     half: (P::Real, P::Real),
-    resting: TruthOf<P>,
+    resting: MaskOf<P>,
 ) {
     let start = *orientation;
     P::turn_about::<AXIS>(orientation, rate, time, half);
@@ -239,11 +239,7 @@ fn turn_about<P: Geometry, const AXIS: usize>(
 
 /// Restores the start in resting lanes. Without resting lanes nothing is stored: masked stores are slow on x86.
 #[inline(always)]
-fn keep<P: Geometry>(
-    orientation: &mut P::Orientation,
-    resting: TruthOf<P>,
-    start: &P::Orientation,
-) {
+fn keep<P: Geometry>(orientation: &mut P::Orientation, resting: MaskOf<P>, start: &P::Orientation) {
     if P::Real::LANES == 1 || resting.any() {
         P::Orientation::keep(orientation, resting, start);
     }
@@ -256,7 +252,7 @@ pub(crate) fn about_x<P: Geometry>(
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
     time: P::Real,
-    without: TruthOf<P>,
+    without: MaskOf<P>,
 ) {
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();
@@ -277,7 +273,7 @@ pub(crate) fn about_y<P: Geometry>(
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
     time: P::Real,
-    without: TruthOf<P>,
+    without: MaskOf<P>,
 ) {
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();
@@ -298,7 +294,7 @@ pub(crate) fn about_z<P: Geometry>(
     orientation: &mut P::Orientation,
     rate: &mut P::Spin,
     time: P::Real,
-    without: TruthOf<P>,
+    without: MaskOf<P>,
 ) {
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();

@@ -6,7 +6,7 @@ use crate::elements::source::{Sensor, SourceLaw};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf};
-use crate::pose::{End, Places, place_bodies, twist_of};
+use crate::pose::{End, Places, place_bodies, torsion_angle_of};
 use crate::real::Real;
 use crate::schedule::{KnotStep, Signal};
 use crate::sources::{over, put};
@@ -35,17 +35,17 @@ pub(crate) fn motion<M: ModelOwner>(
     let bodies = state.bodies.as_ref();
     let end = |body: BodyIndex| End::new(view, places, body, Some(bodies));
     let there = |body: BodyIndex| bodies.get(body.row());
-    let twist = |spring: u16| {
+    let torsion_angle = |spring: u16| {
         let turns = *RealOf::<M>::counts(state.turns.as_ref()).get(spring as usize)?;
         let spring = view.torsions.get(spring as usize)?;
-        Some((spring, twist_of::<M::Precision>(spring, bodies, turns)?))
+        Some((spring, torsion_angle_of::<M::Precision>(spring, bodies, turns)?))
     };
     Some(match *sensor {
-        Sensor::Angle { spring, offset } => Motion::Number(twist(spring)?.1.angle + offset),
+        Sensor::Angle { spring, offset } => Motion::Number(torsion_angle(spring)?.1.angle + offset),
         Sensor::Rate { spring } => {
-            let (spring, twist) = twist(spring)?;
+            let (spring, torsion_angle) = torsion_angle(spring)?;
             let (a, b) = (end(spring.a), end(spring.b));
-            Motion::Number(a.moment_to_axes(b.spin - a.spin).dot(twist.gradient))
+            Motion::Number(a.moment_to_axes(b.spin - a.spin).dot(torsion_angle.gradient))
         }
         Sensor::Point { body, point } => {
             let position = M::Precision::position(&there(body)?.position);

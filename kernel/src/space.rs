@@ -54,10 +54,10 @@ pub trait Linear:
     /// Whether every component is finite.
     fn is_finite(self) -> bool;
 
-    /// Itself, or, where `truth` is set, zeros of negative sign, which change nothing when added.
+    /// Itself, or, where `mask` is set, zeros of negative sign, which change nothing when added.
     #[inline(always)]
-    fn unless(self, truth: <Self::Real as Real>::Truth) -> Self {
-        Self::select(truth, -Self::ZERO, self)
+    fn unless(self, mask: <Self::Real as Real>::Mask) -> Self {
+        Self::select(mask, -Self::ZERO, self)
     }
 }
 

@@ -35,7 +35,7 @@ pub enum Cause {
     },
     /// The torsion angle of this torsion spring is undefined: its bodies rotated by half a revolution about an axis
     /// normal to the spring's.
-    UndefinedTwist {
+    UndefinedTorsionAngle {
         /// The first such spring.
         spring: TorsionIndex,
     },
@@ -44,13 +44,13 @@ pub enum Cause {
         /// The first such row.
         law: LawIndex,
     },
-    /// This body rotates by more than [`MOST_TURN`] in a step.
+    /// This body rotates by more than [`MAX_TURN`] in a step.
     Spin {
         /// The first such body.
         body: BodyIndex,
     },
-    /// This body rotates farther in a step than the scheme allows: [`Scheme::MOST_TURN`](crate::Scheme::MOST_TURN),
-    /// less than [`MOST_TURN`].
+    /// This body rotates farther in a step than the scheme allows: [`Scheme::MAX_TURN`](crate::Scheme::MOST_TURN),
+    /// less than [`MAX_TURN`].
     Turn {
         /// The first such body.
         body: BodyIndex,
@@ -87,7 +87,7 @@ pub enum Cause {
 
 /// \[rad\] the largest rotation of a body in a step: the rotation polynomials lose digits from 0.3 on, and forces that
 /// rotate with the body are undersampled well before that.
-pub const MOST_TURN: f64 = 1.0;
+pub const MAX_TURN: f64 = 1.0;
 
 impl Status {
     /// Whether the plant has not failed.
@@ -112,12 +112,12 @@ impl core::fmt::Display for Failure {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self.cause {
             Cause::NonFinite { body } => write!(f, "the state of body {} is not finite", body.0)?,
-            Cause::UndefinedTwist { spring } => {
+            Cause::UndefinedTorsionAngle { spring } => {
                 write!(f, "the torsion angle of torsion spring {} is undefined", spring.0)?;
             }
             Cause::Undefined { law } => write!(f, "law {} is undefined at this pose", law.0)?,
             Cause::Spin { body } => {
-                write!(f, "body {} rotates by more than {MOST_TURN} rad in a step", body.0)?;
+                write!(f, "body {} rotates by more than {MAX_TURN} rad in a step", body.0)?;
             }
             Cause::Turn { body } => {
                 write!(f, "body {} rotates farther in a step than the scheme allows", body.0)?;

@@ -106,11 +106,11 @@ impl<R: Real> Vec3<R> {
 
 impl<R: Real> Lanewise<R> for Vec3<R> {
     #[inline(always)]
-    fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self {
+    fn select(mask: R::Mask, then: Self, otherwise: Self) -> Self {
         Self::new(
-            R::pick(truth, then.x, otherwise.x),
-            R::pick(truth, then.y, otherwise.y),
-            R::pick(truth, then.z, otherwise.z),
+            R::pick(mask, then.x, otherwise.x),
+            R::pick(mask, then.y, otherwise.y),
+            R::pick(mask, then.z, otherwise.z),
         )
     }
 }
@@ -300,8 +300,8 @@ impl<R: Real> Quaternion<R> {
 
 impl<R: Real> Lanewise<R> for Quaternion<R> {
     #[inline(always)]
-    fn select(truth: R::Truth, then: Self, otherwise: Self) -> Self {
-        Self { w: R::pick(truth, then.w, otherwise.w), v: Vec3::select(truth, then.v, otherwise.v) }
+    fn select(mask: R::Mask, then: Self, otherwise: Self) -> Self {
+        Self { w: R::pick(mask, then.w, otherwise.w), v: Vec3::select(mask, then.v, otherwise.v) }
     }
 }
 

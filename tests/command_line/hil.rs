@@ -164,7 +164,7 @@ fn a_controller_that_fails_ends_the_run() {
     for (controller, words) in [
         ("sh -c 'exit 7'", "exit status: 7"),
         ("sh -c 'while read line; do echo x; done'", "answered `x`"),
-        ("sh -c 'while read line; do echo 1,2; done'", "2 numbers where the inputs are drive"),
+        ("sh -c 'while read line; do echo 1,2; done'", "2 numbers given for the inputs drive"),
     ] {
         let (_, driven) =
             both("cart-pendulum", &["--patience", "500ms"], &["--controller", controller]);

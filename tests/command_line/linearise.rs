@@ -75,7 +75,13 @@ fn the_summary_has_names_drift_poles_and_what_is_left_out() {
     assert!(done.out.contains("5.11"), "{}", done.out);
     let folder = Folder::new();
     let whole = linearise(&[&folder.scene(HANGING)]);
-    assert!(whole.out.contains("12, twelve coordinates per body; --states"), "{}", whole.out);
+    assert!(
+        whole
+            .out
+            .contains("12, twelve coordinates per body; reduce to the slow motions with --states"),
+        "{}",
+        whole.out
+    );
     assert!(whole.out.contains("-1.5 ± 9.8869i"), "{}", whole.out);
     assert!(whole.out.contains("left out  nothing"), "{}", whole.out);
 }

@@ -8,7 +8,7 @@ use std::path::Path;
 use dbd_kernel::{State, Vec3, forces::wrenches};
 use dbd_scene::Scene;
 use dbd_study::modes::{
-    MOST_BODIES, Matrices, elements, extremes, modes, softened, strain_shares, table,
+    MAX_BODIES, Matrices, elements, extremes, modes, softened, strain_shares, table,
 };
 use host_sim::terminal::Exit;
 use nalgebra::Matrix4;
@@ -75,12 +75,13 @@ fn a_chain_of_masses_has_its_frequencies_shapes_ratios_and_masses() {
             assert!((body[0] - shape(i) / largest).abs() < 1e-7, "{j} {i}: {body:?}");
         }
         // Spring i stretches by the difference of its ends.
-        let stretch = |i: usize| if i == 0 { shape(0) } else { shape(i) - shape(i - 1) };
-        let all: f64 = (0..N).map(|i| stretch(i).powi(2)).sum();
+        let deformation = |i: usize| if i == 0 { shape(0) } else { shape(i) - shape(i - 1) };
+        let all: f64 = (0..N).map(|i| deformation(i).powi(2)).sum();
         let (name, share) = &row.elements[0];
-        let most = (0..N).max_by(|a, b| stretch(*a).abs().total_cmp(&stretch(*b).abs())).unwrap();
+        let most =
+            (0..N).max_by(|a, b| deformation(*a).abs().total_cmp(&deformation(*b).abs())).unwrap();
         assert!(name.contains(&format!("`k{most}`")), "{row:?} {most}");
-        assert!((share - stretch(most).powi(2) / all).abs() < 1e-8, "{row:?}");
+        assert!((share - deformation(most).powi(2) / all).abs() < 1e-8, "{row:?}");
     }
     // Nothing else than the held end reaches the ground: all of the mass is in some mode.
     assert!(sums.iter().all(|sum| (sum / (N as f64 * mass) - 1.0).abs() < 1e-9), "{sums:?}");
@@ -309,7 +310,7 @@ fn the_iteration_finds_the_modes_of_the_whole_matrix() {
 #[test]
 fn more_bodies_than_a_whole_matrix_bears_are_iterated() {
     let folder = Folder::new();
-    let n = MOST_BODIES + 20;
+    let n = MAX_BODIES + 20;
     let text = format!("name = \"long\"\nduration = 1\n{}", chain(n, [0.5, 2e3, 1.0]));
     let done = call(&["modes", &folder.scene(&text), "--count", "3", "--json"]);
     let said: Value = serde_json::from_str(&done.out).unwrap_or_else(|_| panic!("{}", done.err));

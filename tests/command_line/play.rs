@@ -38,22 +38,25 @@ fn a_page_holds_its_scenes_and_what_was_chosen() {
         assert_eq!((done.exit, done.out), (Exit::Done, format!("{file}\n")), "{}", done.err);
     }
     let page = fs::read_to_string(file).unwrap();
-    let told = data(&page);
-    assert_eq!(told["scenes"][0]["file"], "four-bar.toml");
-    let text = told["scenes"][0]["text"].as_str().unwrap();
-    assert!(text.contains("[[body]]") && told["reload"].is_null());
-    assert_eq!((&told["settings"]["precision"], &told["speed"]), (&"f32".into(), &0.1.into()));
-    assert_eq!(told["set"]["joint.*.stiffness"], 1e6);
+    let reported = data(&page);
+    assert_eq!(reported["scenes"][0]["file"], "four-bar.toml");
+    let text = reported["scenes"][0]["text"].as_str().unwrap();
+    assert!(text.contains("[[body]]") && reported["reload"].is_null());
+    assert_eq!(
+        (&reported["settings"]["precision"], &reported["speed"]),
+        (&"f32".into(), &0.1.into())
+    );
+    assert_eq!(reported["set"]["joint.*.stiffness"], 1e6);
     for fetch in ["src=\"http", "href=\"http", "@import", "url(http"] {
         assert!(!page.contains(fetch), "{fetch}");
     }
     assert_eq!(play(&["four-bar", "gripper"], &[]).exit, Exit::Done);
-    let told = data(&fs::read_to_string(file).unwrap());
-    assert_eq!(told["scenes"][1]["name"], "gripper");
+    let reported = data(&fs::read_to_string(file).unwrap());
+    assert_eq!(reported["scenes"][1]["name"], "gripper");
     assert_eq!(play(&["--all"], &[]).exit, Exit::Done);
-    let told = data(&fs::read_to_string(file).unwrap());
+    let reported = data(&fs::read_to_string(file).unwrap());
     let listed: Value = serde_json::from_str(&call(&["list", "--json"]).out).unwrap();
-    assert_eq!(told["scenes"].as_array().unwrap().len(), listed.as_array().unwrap().len());
+    assert_eq!(reported["scenes"].as_array().unwrap().len(), listed.as_array().unwrap().len());
 }
 
 #[test]
@@ -98,7 +101,11 @@ fn no_page_is_written_where_something_is_wrong() {
         "cargo xtask playground",
     );
     refused(&["four-bar", "--out", &file_text, "--module", &text_text], no, "WebAssembly");
-    refused(&["four-bar", "--out", &text_text, "--module", &module_text], no, "no page");
+    refused(
+        &["four-bar", "--out", &text_text, "--module", &module_text],
+        no,
+        "is not a page of host-sim",
+    );
     assert_eq!(fs::read_to_string(&text).unwrap(), "mine");
     refused(&["four-bar", "--serve", "--module", &module_text, "--port", "99999"], no, "99999");
 }

@@ -272,7 +272,7 @@ const CASES: &[Case] = &[
 const OTHERS: &[(&str, (usize, usize), &str, &str)] = &[
     ("", (1, 1), "the scene has no `name`", "a name in quotes"),
     ("name = \"a\"\nduration = 1", (1, 1), "the scene has no bodies", "at least one [[body]]"),
-    ("name = \"a\"\nduration = 1\nbody = []", (3, 8), "`body` of the scene holds no body", "at least one [[body]]"),
+    ("name = \"a\"\nduration = 1\nbody = []", (3, 8), "`body` of the scene is empty", "at least one [[body]]"),
     ("name = \"a\"\nduration = 1\nbody = [3]", (3, 9), "`body`[0] of the scene is an integer", "a table, written as [[body]]"),
 ];
 

@@ -106,15 +106,15 @@ fn noise_of_forces_is_told_by_its_size() {
     };
     let stiff = folder.scene(&text("3e8"));
     let summary = folder.summary(&stiff, &["--precision", "f32"]);
-    let told = said(&summary, "at any time").unwrap_or_else(|| panic!("{summary}"));
-    let words: Vec<&str> = told.split_whitespace().collect();
+    let reported = said(&summary, "at any time").unwrap_or_else(|| panic!("{summary}"));
+    let words: Vec<&str> = reported.split_whitespace().collect();
     let some = words.iter().position(|word| *word == "about").unwrap();
     let size: f64 = words[some + 1].parse().unwrap();
     let trace = folder.trace("scene");
     let row = trace.header.iter().position(|name| name == "F.y").unwrap();
     let forces: Vec<f64> = trace.rows.iter().map(|row_of| row_of[row].parse().unwrap()).collect();
     let off = forces.iter().map(|force| (force - 3.0 * 9.81).abs()).fold(0.0, f64::max);
-    assert!(off > size / 10.0 && off < 10.0 * size, "{off} {told}");
+    assert!(off > size / 10.0 && off < 10.0 * size, "{off} {reported}");
     // Before a run, too; not of softer joints, nor in double precision.
     let checked = call(&["check", &stiff]).out;
     assert!(checked.contains("in f32 read-out `"), "{checked}");
@@ -136,9 +136,9 @@ fn small_mechanisms_are_told_of_in_fixed_point() {
              stiffness = 1e2\nspan = {length:?}\n"
         )
     };
-    for (length, told) in [(1e-3, true), (1e-2, false)] {
+    for (length, reported) in [(1e-3, true), (1e-2, false)] {
         let scene = folder.scene(&text(length));
         let summary = folder.summary(&scene, &["--precision", "fixed"]);
-        assert_eq!(said(&summary, "fixed resolves points to").is_some(), told, "{summary}");
+        assert_eq!(said(&summary, "fixed resolves points to").is_some(), reported, "{summary}");
     }
 }

@@ -306,8 +306,8 @@ fn ideal_joints_are_refused_where_there_are_none_or_the_method_is_given() {
     let folder = Folder::new();
     for (scene, words, said) in [
         ("spring-ball", &["--ideal", "0.1mm"][..], "no joint that could be made ideal"),
-        ("four-bar", &["--ideal", "soon"], "--ideal cannot be soon"),
-        ("four-bar", &["--ideal", "0"], "--ideal cannot be 0"),
+        ("four-bar", &["--ideal", "soon"], "--ideal: invalid value `soon`"),
+        ("four-bar", &["--ideal", "0"], "--ideal: invalid value `0`"),
         ("four-bar", &["--ideal", "0.1mm", "--step", "1ms"], "cannot be used with"),
         ("four-bar", &["--ideal", "1e-15", "--duration", "0.05s"], "is not reachable"),
     ] {

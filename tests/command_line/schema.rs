@@ -121,8 +121,12 @@ fn schema_and_reader_refuse_alike() {
             for key in &keys {
                 met.insert(key.clone());
                 // Where a truth value stands a number must not.
-                let truths = ["planar", "settle", "periodic", "jump"];
-                let wrong = if truths.contains(&key.as_str()) { json!(1) } else { json!(true) };
+                let reference_solutions = ["planar", "settle", "periodic", "jump"];
+                let wrong = if reference_solutions.contains(&key.as_str()) {
+                    json!(1)
+                } else {
+                    json!(true)
+                };
                 let (said, valid, words) = changed(key, Some(wrong));
                 assert!(said.is_some() && !valid, "{words}, the schema takes it: {valid}");
                 changed(key, Some(json!(-1)));

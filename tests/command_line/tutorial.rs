@@ -151,9 +151,9 @@ fn the_tutorial_does_what_it_says() {
             TOO_LARGE => text("too large", &done.err),
             CHANGED => text("changed", &done.err),
             "host-sim run wiper.toml --golden wiper.golden" => {
-                let told: Vec<_> =
+                let reported: Vec<_> =
                     done.out.lines().filter(|line| line.contains("golden")).collect();
-                text("golden", &told.join("\n"));
+                text("golden", &reported.join("\n"));
             }
             _ => {}
         }

@@ -20,7 +20,7 @@ struct Race {
     rate: f64,
     time: f64,
     /// The truth at t = 0 and at the samples.
-    truth: Trajectory,
+    reference_solution: Trajectory,
 }
 
 /// Samples over the time.
@@ -29,8 +29,9 @@ const SAMPLES: u64 = 20;
 impl Race {
     fn new(name: &str, rate: f64, time: f64) -> Self {
         let scene = scene(name);
-        let truth = Trajectory::truth(&scene, time, SAMPLES as u32).unwrap();
-        Self { model: scene.model.convert(), rate, time, truth }
+        let reference_solution =
+            Trajectory::reference_solution(&scene, time, SAMPLES as u32).unwrap();
+        Self { model: scene.model.convert(), rate, time, reference_solution }
     }
 
     /// The states at the samples, and the RMS of the energy's error over the steps if it is
@@ -57,9 +58,9 @@ impl Race {
 
     /// The largest distance \[m\] of a body from the truth over the samples.
     fn error(&self, states: &[State<SceneModel<F64>>]) -> f64 {
-        let pairs = states.iter().zip(&self.truth.states[1..]);
-        let errors = pairs.flat_map(|(run, truth)| {
-            let bodies = run.bodies.iter().zip(truth.positions());
+        let pairs = states.iter().zip(&self.reference_solution.states[1..]);
+        let errors = pairs.flat_map(|(run, reference_solution)| {
+            let bodies = run.bodies.iter().zip(reference_solution.positions());
             bodies.map(|(body, at)| (Vector3::from(body.position.to_f64()) - at).norm())
         });
         errors.fold(0.0, f64::max)
@@ -71,7 +72,7 @@ type Errors = (&'static str, f64, Option<f64>);
 
 fn run(name: &str, rate: f64) -> Vec<Errors> {
     let race = Race::new(name, rate, 0.1);
-    let doubt = race.truth.largest_uncertainty();
+    let doubt = race.reference_solution.largest_uncertainty();
     // A load does work.
     let watched = race.model.loads.is_empty();
     fn row<S: Scheme>(race: &Race, scheme: S, watched: bool) -> Errors {

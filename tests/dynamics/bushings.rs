@@ -139,9 +139,9 @@ fn damped_bushings_lose_energy_and_are_of_second_order() {
         let steps = 500 * 2_u64.pow(halvings);
         state_after(&scene.model, 0.05 / steps as f64, steps)
     };
-    let truth = at(5);
+    let reference_solution = at(5);
     let error = |halvings: u32| {
-        let pairs = at(halvings).bodies.into_iter().zip(truth.bodies.clone());
+        let pairs = at(halvings).bodies.into_iter().zip(reference_solution.bodies.clone());
         let gaps = pairs.map(|(a, b)| (a.position - b.position).dot(a.position - b.position));
         gaps.sum::<f64>().sqrt()
     };

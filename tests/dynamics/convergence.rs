@@ -42,23 +42,23 @@ struct Case {
     title: &'static str,
     model: Bench<F64>,
     time: f64,
-    truth: Vec<BodyState<F64>>,
+    reference_solution: Vec<BodyState<F64>>,
 }
 
 impl Case {
     fn new(title: &'static str, model: Bench<F64>, damped: bool, time: f64) -> Self {
         let steps = (time / 5e-5).round() as u64;
-        let truth = if damped {
+        let reference_solution = if damped {
             run(&model, Rk4, time / steps as f64, steps)
         } else {
             run(&model, BlanesMoanS6, time / steps as f64, steps)
         };
-        Self { title, truth: truth.bodies.to_vec(), model, time }
+        Self { title, reference_solution: reference_solution.bodies.to_vec(), model, time }
     }
 
     fn error<S: Scheme>(&self, scheme: S, steps: u64) -> f64 {
         let end = run(&self.model, scheme, self.time / steps as f64, steps);
-        distance(&end.bodies, &self.truth)
+        distance(&end.bodies, &self.reference_solution)
     }
 
     /// Compares the order between `steps` and twice as many with the stated one; the scheme's row.
@@ -123,7 +123,7 @@ impl Case {
         let model = Eliminated::new(&self.model).unwrap();
         let [coarse, fine] = [steps, 2 * steps].map(|steps| {
             let end = run(&model, scheme, self.time / steps as f64, steps);
-            distance(&end.bodies, &self.truth)
+            distance(&end.bodies, &self.reference_solution)
         });
         let (order, title) = ((coarse / fine).log2(), self.title);
         println!("{title}, {}: {order} from {coarse:e}, {fine:e}", S::NAME);
@@ -145,7 +145,7 @@ struct Observed {
 #[test]
 fn in_the_plane() {
     let case = Case::new("plane", flat(0.0), false, 0.4);
-    assert!(case.truth.iter().all(|body| body.position.z == 0.0));
+    assert!(case.reference_solution.iter().all(|body| body.position.z == 0.0));
     case.check_all(|undamped, _| undamped, [4_000, 500, 320]);
 }
 

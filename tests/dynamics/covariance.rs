@@ -4,7 +4,7 @@
 //! Rounding alone may tell the runs apart; where all numbers change by a sign or by a power of two, not
 //! even that.
 
-use dbd_kernel::builder::{LineLaw, Stars};
+use dbd_kernel::builder::{LineLaw, Triples};
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, Leapfrog,
@@ -129,7 +129,7 @@ impl<P: Geometry> Scene<P> {
         }
         let ring = [[0.2, 0.0, height], [-0.1, 0.17, height], [-0.1, -0.17, height]];
         let arms = ring.map(|d| self.local(between[1], shifted(d)));
-        let stars = Stars {
+        let triples = Triples {
             between,
             centres: &centres,
             arms: &arms,
@@ -138,7 +138,7 @@ impl<P: Geometry> Scene<P> {
             free_length: 0.25,
             clearance: 0.0,
         };
-        self.model.add_stars(stars).unwrap();
+        self.model.add_triples(triples).unwrap();
     }
 
     fn tsda(&mut self, between: [BodyIndex; 2], points: [[f64; 3]; 2], law: [f64; 3]) {

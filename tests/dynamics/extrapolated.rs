@@ -158,10 +158,13 @@ fn what_third_order_is_worth() {
     {
         let scene = scene(name).with(&format!("joint.*.stiffness={stiffness}")).unwrap();
         let model: SceneModel<F64> = scene.model.planned();
-        let truth = after(&model, GeneralizedAlpha3, 1e-5, TIME);
+        let reference_solution = after(&model, GeneralizedAlpha3, 1e-5, TIME);
         for step in [1e-3, 5e-4, 2.5e-4] {
-            let second = apart(&after(&model, GeneralizedAlpha::DEFAULT, step / 3.0, TIME), &truth);
-            let third = apart(&after(&model, GeneralizedAlpha3, step, TIME), &truth);
+            let second = apart(
+                &after(&model, GeneralizedAlpha::DEFAULT, step / 3.0, TIME),
+                &reference_solution,
+            );
+            let third = apart(&after(&model, GeneralizedAlpha3, step, TIME), &reference_solution);
             println!("{name} {step}: {second:e} {third:e}");
             assert!(step > 6e-4 || third * least < second, "{name} {step}: {second:e} {third:e}");
             rows.push(vec![

@@ -42,7 +42,7 @@ const PATTERNS: [&str; 9] = [
 const DRAWN: usize = 12;
 
 /// Bodies above which a scene's own paths are not drawn: its kinds of values are those of a smaller one.
-const MOST_BODIES: usize = 8;
+const MAX_BODIES: usize = 8;
 
 /// The next of a sequence (SplitMix64).
 fn next(state: &mut u64) -> u64 {
@@ -103,7 +103,7 @@ fn no_value_at_its_edge_makes_a_panic() {
             .filter(|(row, _)| *row == 0 || next(&mut seed).is_multiple_of(3))
             .map(|(_, pattern)| (*pattern).to_owned())
             .collect();
-        if scene.body_names.len() <= MOST_BODIES {
+        if scene.body_names.len() <= MAX_BODIES {
             let drawn = (0..DRAWN).map(|_| next(&mut seed) as usize % numbers.len());
             paths.extend(drawn.map(|row| numbers[row].path.clone()));
         }

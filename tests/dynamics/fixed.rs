@@ -85,7 +85,7 @@ fn moved(model: &SceneModel<F64>, by: [f64; 3]) -> SceneModel<F64> {
     }
     for group in &model.groups {
         let first = usize::from(group.point);
-        let middle = first + usize::from(group.stars);
+        let middle = first + usize::from(group.triples);
         for (end, rows) in [(group.a, first..middle), (group.b, middle..first + group.points())] {
             if end.is_world() {
                 model.points[rows].iter_mut().for_each(|point| *point = *point + by);

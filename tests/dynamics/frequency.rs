@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use dbd_kernel::builder::{LineLaw, Stars};
+use dbd_kernel::builder::{LineLaw, Triples};
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::{
     BodyIndex, BodyState, F64, Leapfrog, ModelOwner, Plant, Quaternion, State, Vec3, frequency,
@@ -171,7 +171,7 @@ fn strained(pull: f64) -> Bench<F64> {
     let law = LineLaw { stiffness: 900.0, damping: 0.0, free_length: 0.1, clearance: 0.02 };
     let points = [[0.2, 0.1, 0.0], [0.1, -0.3, 0.2]];
     model.add_points_on_line([b, a], [0.1, 0.0, 0.3], [0.3, 0.4, 1.2], &points, law).unwrap();
-    let stars = Stars {
+    let triples = Triples {
         between: [c, a],
         centres: &[[0.0; 3]],
         arms: &[[0.9, 0.0, 0.0], [0.0, 0.7, 0.0], [0.0, 0.0, 2.0]],
@@ -180,7 +180,7 @@ fn strained(pull: f64) -> Bench<F64> {
         free_length: 1.5,
         clearance: 0.1,
     };
-    model.add_stars(stars).unwrap();
+    model.add_triples(triples).unwrap();
     model.add_torsion_spring([b, c], [0.0, 0.6, 0.8], 300.0, 0.0, 90.0).unwrap();
     model.add_input(InputKind::Actuator { group: 2, element: 0 }, pull).unwrap();
     model

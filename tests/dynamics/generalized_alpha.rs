@@ -74,10 +74,10 @@ fn single_precision_and_fixed_point_follow_it() {
         let model = with_stiffness(name, stiffness).model;
         macro_rules! check {
             ($scheme:expr) => {{
-                let truth = positions::<F64>(&model, $scheme, 1e-3, 0.1);
+                let reference_solution = positions::<F64>(&model, $scheme, 1e-3, 0.1);
                 let off = [
-                    apart(&positions::<F32>(&model, $scheme, 1e-3, 0.1), &truth),
-                    apart(&positions::<Fixed>(&model, $scheme, 1e-3, 0.1), &truth),
+                    apart(&positions::<F32>(&model, $scheme, 1e-3, 0.1), &reference_solution),
+                    apart(&positions::<Fixed>(&model, $scheme, 1e-3, 0.1), &reference_solution),
                 ];
                 println!("{name}: {off:?}");
                 assert!(off[0] < single && off[1] < fixed, "{name}: {off:?}");

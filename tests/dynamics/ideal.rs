@@ -58,7 +58,7 @@ fn accelerations([a, b, u, v]: [f64; 4]) -> [f64; 2] {
 }
 
 /// The centres of the links at the samples, by the classical Runge–Kutta scheme in steps of 2 µs.
-fn truth(samples: usize) -> Vec<[[f64; 2]; 2]> {
+fn reference_solution(samples: usize) -> Vec<[[f64; 2]; 2]> {
     const STEPS: usize = 10_000;
     let h = TIME / (samples * STEPS) as f64;
     let rates = |y: [f64; 4]| {
@@ -89,11 +89,11 @@ fn truth(samples: usize) -> Vec<[[f64; 2]; 2]> {
 }
 
 /// \[m\] the root mean square over links and samples of how far a choice is off.
-fn off(found: &Ideal, truth: &[[[f64; 2]; 2]]) -> f64 {
+fn off(found: &Ideal, reference_solution: &[[[f64; 2]; 2]]) -> f64 {
     let mut plant = plant(&found.scene, &found.method, found.step).unwrap();
-    let steps = (TIME / truth.len() as f64 / found.step).round() as u64;
+    let steps = (TIME / reference_solution.len() as f64 / found.step).round() as u64;
     let mut sum = 0.0;
-    for centres in truth {
+    for centres in reference_solution {
         assert!(plant.advance(steps).is_running());
         let state = plant.state();
         for (body, centre) in state.bodies.iter().zip(centres) {
@@ -101,16 +101,16 @@ fn off(found: &Ideal, truth: &[[[f64; 2]; 2]]) -> f64 {
             sum += (x - centre[0]).powi(2) + (y - centre[1]).powi(2);
         }
     }
-    (sum / (2 * truth.len()) as f64).sqrt()
+    (sum / (2 * reference_solution.len()) as f64).sqrt()
 }
 
 #[test]
 fn a_double_pendulum_is_as_near_to_rigid_joints_as_is_asked() {
-    let (scene, truth) = (pendulum(), truth(50));
+    let (scene, reference_solution) = (pendulum(), reference_solution(50));
     let mut rows = Vec::new();
     for tolerance in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
         let found = ideal(&scene, tolerance, (TIME, None), &mut || ()).unwrap();
-        let off = off(&found, &truth);
+        let off = off(&found, &reference_solution);
         println!("{tolerance:e}: {off:e} {found:?}", found = (found.off(), found.step, &found.set));
         assert!(found.off() <= tolerance && off <= tolerance, "{tolerance:e}: {off:e}");
         // Not at any price: the same is not had with ten times as long a step.

@@ -180,9 +180,9 @@ fn it_is_of_second_order_and_near_the_law_of_the_dampers() {
         let step = scene.step.unwrap();
         let steps = 10 * (window / step / 10.0).round() as u64;
         let errors = |way: &dyn Fn(u64) -> Vec<[f64; 3]>| {
-            let truth = way(16 * steps);
-            let errors = [1, 2].map(|parts| distance(&way(parts * steps), &truth));
-            (truth, errors)
+            let reference_solution = way(16 * steps);
+            let errors = [1, 2].map(|parts| distance(&way(parts * steps), &reference_solution));
+            (reference_solution, errors)
         };
         let (law, swept) = errors(&|steps| run(&scene.model, Leapfrog, window, steps));
         let (own, joined) = errors(&|steps| run(&scene.model, JointWise(Leapfrog), window, steps));

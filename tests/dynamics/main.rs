@@ -24,7 +24,7 @@ mod precision;
 mod random_mechanisms;
 mod reference_generalized_alpha;
 mod reference_implicit;
-mod reference_truth;
+mod reference_solution;
 mod scenes;
 mod schemes;
 mod stability;

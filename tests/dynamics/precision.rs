@@ -183,8 +183,8 @@ fn errors<const N: usize>(
         plant.advance(steps as u64).ok().unwrap();
         plant.state().bodies.to_vec()
     };
-    let truth = end(SchemeName::BlanesMoanS6, PrecisionName::F64, 0.1);
-    products.map(|product| distance(&end(scheme, PrecisionName::F32, product), &truth))
+    let reference_solution = end(SchemeName::BlanesMoanS6, PrecisionName::F64, 0.1);
+    products.map(|product| distance(&end(scheme, PrecisionName::F32, product), &reference_solution))
 }
 
 #[test]

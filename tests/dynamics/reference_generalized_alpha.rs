@@ -28,9 +28,18 @@ fn run<M: ModelOwner<Precision = F64>>(
 }
 
 /// The error against the truth with `steps` steps between two samples.
-fn error<M: ModelOwner<Precision = F64>>(model: &M, truth: &Trajectory, steps: usize) -> f64 {
-    let step = truth.times[1] / steps as f64;
-    truth.error(&run(model, step, [truth.times.len() - 1, steps], GeneralizedAlpha::RHO))
+fn error<M: ModelOwner<Precision = F64>>(
+    model: &M,
+    reference_solution: &Trajectory,
+    steps: usize,
+) -> f64 {
+    let step = reference_solution.times[1] / steps as f64;
+    reference_solution.error(&run(
+        model,
+        step,
+        [reference_solution.times.len() - 1, steps],
+        GeneralizedAlpha::RHO,
+    ))
 }
 
 #[test]
@@ -38,8 +47,9 @@ fn it_converges_with_order_2_on_every_kind_of_element() {
     for damping in [0.0, 2.0] {
         let model = hung_ring::<F64>(damping);
         let (mechanism, start) = Mechanism::of_model(&model);
-        let truth = Trajectory::truth_of(&mechanism, &start, sample_times(0.2, 4)).unwrap();
-        let [coarse, fine] = [2_000, 4_000].map(|steps| error(&model, &truth, steps));
+        let reference_solution =
+            Trajectory::reference_solution_of(&mechanism, &start, sample_times(0.2, 4)).unwrap();
+        let [coarse, fine] = [2_000, 4_000].map(|steps| error(&model, &reference_solution, steps));
         assert!((coarse / fine - 4.0).abs() < 0.2, "{damping}: {coarse:e} {fine:e}");
     }
 }
@@ -75,16 +85,17 @@ fn it_beats_linearly_implicit_euler() {
     for name in ["crank-slider", "3ruu"] {
         let scene = scene(name);
         let (mechanism, start) = Mechanism::of(&scene);
-        let truth = Trajectory::truth_of(&mechanism, &start, sample_times(0.1, 10)).unwrap();
-        let own = error(&scene.model, &truth, 20);
-        let step = truth.times[1] / 20.0;
+        let reference_solution =
+            Trajectory::reference_solution_of(&mechanism, &start, sample_times(0.1, 10)).unwrap();
+        let own = error(&scene.model, &reference_solution, 20);
+        let step = reference_solution.times[1] / 20.0;
         let mut euler = Implicit::new(&mechanism, start.clone(), step);
         let mut positions = vec![State::positions(&start)];
-        while positions.len() < truth.times.len() {
+        while positions.len() < reference_solution.times.len() {
             (0..20).for_each(|_| euler.step());
             positions.push(euler.state.positions());
         }
-        let other = truth.error(&positions);
+        let other = reference_solution.error(&positions);
         println!("{name}: {own:e} m, linearly implicit Euler {other:e} m, at {step} s");
         assert!(own < 0.75 * other, "{name}: {own:e} {other:e}");
     }

@@ -165,13 +165,13 @@ fn sweeps_keep_the_step_that_explicit_damping_loses() {
 /// The limit of each method on a damped mechanism, and the error \[m\] at it.
 fn damped_limits(name: &str, methods: &[Method; 4]) -> [(f64, f64); 4] {
     let scene = damped(name);
-    let truth = Trajectory::truth(&scene, 0.1, 10).unwrap();
+    let reference_solution = Trajectory::reference_solution(&scene, 0.1, 10).unwrap();
     let limits = methods.each_ref().map(|method| {
         let found = of(&scene, method);
         // The longest step that divides the interval between samples.
         let usable = found.largest_step.min(method.stability_limit() / found.frequency);
-        let steps = (truth.times[1] / usable * 1.02).ceil() as u64;
-        (found.z(), truth.error(&truth.run(&scene, method, steps)))
+        let steps = (reference_solution.times[1] / usable * 1.02).ceil() as u64;
+        (found.z(), reference_solution.error(&reference_solution.run(&scene, method, steps)))
     });
     let [sweeps, explicit, euler, paper] = limits;
     assert!(sweeps.0 >= 1.9, "{name}: {sweeps:?}");
@@ -181,8 +181,8 @@ fn damped_limits(name: &str, methods: &[Method; 4]) -> [(f64, f64); 4] {
     // error, explicit damping in leapfrog at nearly three times the step up to half of it.
     let [ratio, second] = [sweeps.1 / paper.1, explicit.1 / paper.1];
     assert!(ratio < 4.0 && second < 0.6, "{name}: {ratio} {second}");
-    let still = vec![truth.states[0].positions(); truth.times.len()];
-    let moved = truth.errors(&still).into_iter().fold(0.0, f64::max);
+    let still = vec![reference_solution.states[0].positions(); reference_solution.times.len()];
+    let moved = reference_solution.errors(&still).into_iter().fold(0.0, f64::max);
     for (_, error) in limits {
         assert!(error < 0.1 * moved, "{name}: {error:e} of {moved:e}");
     }
@@ -230,6 +230,6 @@ fn one_oscillator_has_the_linear_limit_and_a_free_body_none() {
     let free = Scene::parse(text, "free.toml").unwrap();
     let state = State::initial(&free.model);
     assert_eq!(stability(&free.model, &state, &method(SchemeName::Leapfrog, None)), Ok(None));
-    let loose = Method::new(SchemeName::Leapfrog, None, PrecisionName::F32Micromath).unwrap();
-    assert!(stability(&free.model, &state, &loose).is_err(), "no pose is at rest in it");
+    let approximate = Method::new(SchemeName::Leapfrog, None, PrecisionName::F32Micromath).unwrap();
+    assert!(stability(&free.model, &state, &approximate).is_err(), "no pose is at rest in it");
 }

@@ -3,8 +3,8 @@
 
 use dbd_plant::{DampingName, Frequencies, Method, PrecisionName, SchemeName};
 use dbd_scene::Scene;
+use dbd_study::reference::reference_solution::{Opinion, integrate};
 use dbd_study::reference::trajectory::{Positions, sample_times};
-use dbd_study::reference::truth::{Opinion, integrate};
 use dbd_study::reference::{Mechanism, Trajectory};
 use dbd_tests::mechanisms::{JOINTS, Kind, mechanism};
 use dbd_tests::page::{block, table};
@@ -39,7 +39,7 @@ fn named(warning: &str) -> f64 {
     units.into_iter().find_map(read).unwrap_or_else(|| panic!("{warning}"))
 }
 
-fn truth(scene: &Scene) -> Trajectory {
+fn reference_solution(scene: &Scene) -> Trajectory {
     let (mechanism, start) = Mechanism::of(scene);
     let times = sample_times(WINDOW, SAMPLES);
     let states = integrate(Opinion::Dop853, &mechanism, &start, &times).unwrap();
@@ -48,33 +48,37 @@ fn truth(scene: &Scene) -> Trajectory {
 }
 
 /// The largest distance of a body from the truth over the largest way of one.
-fn error(truth: &Trajectory, run: &[Positions]) -> f64 {
-    let start = truth.states[0].positions();
+fn error(reference_solution: &Trajectory, run: &[Positions]) -> f64 {
+    let start = reference_solution.states[0].positions();
     let (mut motion, mut worst) = (0.0_f64, 0.0_f64);
-    for (state, run) in truth.states.iter().zip(run) {
-        for ((truth, run), start) in state.positions().iter().zip(run).zip(&start) {
-            motion = motion.max((truth - start).norm());
-            worst = worst.max((truth - run).norm());
+    for (state, run) in reference_solution.states.iter().zip(run) {
+        for ((reference_solution, run), start) in state.positions().iter().zip(run).zip(&start) {
+            motion = motion.max((reference_solution - start).norm());
+            worst = worst.max((reference_solution - run).norm());
         }
     }
-    if run.len() == truth.states.len() { worst / motion } else { f64::INFINITY }
+    if run.len() == reference_solution.states.len() { worst / motion } else { f64::INFINITY }
 }
 
 #[test]
 fn what_is_off_by_more_than_a_percent_is_warned_of() {
     let mut rows: Vec<Vec<String>> = Vec::new();
     for damping in [[0.2, 0.4], [0.4, 0.8]] {
-        let kind = Kind { planar: false, joints: JOINTS, damping, driven: false, loose: false };
+        let kind =
+            Kind { planar: false, joints: JOINTS, damping, driven: false, approximate: false };
         let texts = (1..).map(|seed| mechanism(seed, kind));
         let slides = |text: &String| text.contains("cylindrical") || text.contains("translational");
         let [mut off, mut warned] = [0; 2];
         let mut worst = [0.0_f64; 3];
         for text in texts.filter(slides).take(60) {
             let scene = Scene::parse(&text, "random.toml").unwrap_or_else(|why| panic!("{why}"));
-            let truth = truth(&scene);
+            let reference_solution = reference_solution(&scene);
             let at = |scheme, step: f64| {
                 let steps = (WINDOW / f64::from(SAMPLES) / step).ceil();
-                error(&truth, &truth.run(&scene, &method(scheme), steps as u64))
+                error(
+                    &reference_solution,
+                    &reference_solution.run(&scene, &method(scheme), steps as u64),
+                )
             };
             let step = Frequencies::of(&scene).advised_step().unwrap();
             let found = at(SchemeName::Leapfrog, step);

@@ -111,8 +111,8 @@ const BLOCK: &str = "name = \"block\"\nduration = 1\n[[body]]\nname = \"mass\"\n
                      axis = [1, 0, 0]\ncoulomb = 5\nbreakaway = 5\ngive = \"10 um\"\ndamping = 15";
 
 /// A disc of 1 kg, radius 0.1 m, on a plane that gravity leans over.
-fn disc(lean: f64, start: &str, contact: &str) -> String {
-    let (sin, cos) = lean.sin_cos();
+fn disc(axis_error: f64, start: &str, contact: &str) -> String {
+    let (sin, cos) = axis_error.sin_cos();
     let depth = G * cos / 1e6;
     format!(
         "name = \"disc\"\nduration = 1\ngravity = [{}, {}, 0]\n[[body]]\nname = \"disc\"\nmass = 1\n\
@@ -173,7 +173,7 @@ fn cases() -> Vec<Case> {
         found,
         near,
     };
-    let lean = 30_f64.to_radians();
+    let axis_error = 30_f64.to_radians();
     let backspin = "velocity = [2, 0, 0]\nangular_velocity = [0, 0, 30]";
     let lever = 0.1 - G / 1e6;
     let ends = (2.0 + 30.0 * lever) / (0.2 * G * (1.0 + lever * lever / 0.005));
@@ -233,17 +233,17 @@ fn cases() -> Vec<Case> {
             1e-4,
             1e-3,
             Box::new(move |h| {
-                at(&disc(lean, "", "friction = 0.5\ndamping = 100"), h, 1.0, "disc.vx")
+                at(&disc(axis_error, "", "friction = 0.5\ndamping = 100"), h, 1.0, "disc.vx")
             }),
         ),
         case(
             "plane-contact",
             "speed after sliding 1 s on 30°, μ 0.15",
             "m/s",
-            G * (lean.sin() - 0.15 * lean.cos()),
+            G * (axis_error.sin() - 0.15 * axis_error.cos()),
             1e-4,
             1e-3,
-            Box::new(move |h| at(&disc(lean, "", "friction = 0.15"), h, 1.0, "disc.vx")),
+            Box::new(move |h| at(&disc(axis_error, "", "friction = 0.15"), h, 1.0, "disc.vx")),
         ),
         case(
             "plane-contact",

@@ -278,7 +278,7 @@ fn a_linear_system_that_there_is_not_is_refused_with_the_remedy() {
     }
     let options = LinearOptions { perturb: f64::NAN, ..LinearOptions::default() };
     let refused = cart.linearise(&options).unwrap_err().sentence();
-    assert_eq!(refused, "perturb cannot be NaN; a number between 0 and 0.1");
+    assert_eq!(refused, "perturb cannot be NaN; give a number between 0 and 0.1");
     let options = LinearOptions { inputs: names(&["dirve"]), ..LinearOptions::default() };
     let refused = cart.linearise(&options).unwrap_err().sentence();
     assert!(refused.contains("did you mean `drive`?"), "{refused}");

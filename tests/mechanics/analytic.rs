@@ -70,7 +70,7 @@ fn small_pendulum() {
     let arm = 0.05;
     let arms = [[arm, length, 0.0], [0.0, length + arm, 0.0], [0.0, length, arm]];
     model
-        .add_stars(dbd_kernel::builder::Stars {
+        .add_triples(dbd_kernel::builder::Triples {
             between: [WORLD, body],
             centres: &[[0.0; 3]],
             arms: &arms,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dbd_kernel::builder::{LineLaw, Stars};
+use dbd_kernel::builder::{LineLaw, Triples};
 use dbd_kernel::energy::energy;
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::{BodyIndex, BodyState, Dbd, Explicit, F64, Leapfrog, Plant, Scheme, State, Vec3};
@@ -11,12 +11,12 @@ use dbd_tests::{Bench, at, distance};
 const WORLD: BodyIndex = BodyIndex::WORLD;
 
 /// A ball within a spherical joint of clearance 1 mm, thrown at 0.1 m/s along x.
-fn loose(damping: f64) -> Bench<F64> {
+fn approximate(damping: f64) -> Bench<F64> {
     let mut model = Bench::new();
     let thrown = BodyState { velocity: Vec3::new(0.1, 0.0, 0.0), ..at([0.0; 3]) };
     let body = model.add_body(1.0, [0.1; 3], thrown).unwrap();
     let arm = 0.05;
-    let stars = Stars {
+    let triples = Triples {
         between: [WORLD, body],
         centres: &[[0.0; 3]],
         arms: &[[arm, 0.0, 0.0], [0.0, arm, 0.0], [0.0, 0.0, arm]],
@@ -25,13 +25,13 @@ fn loose(damping: f64) -> Bench<F64> {
         free_length: arm,
         clearance: 1e-3,
     };
-    model.add_stars(stars).unwrap();
+    model.add_triples(triples).unwrap();
     model
 }
 
 #[test]
 fn flight_is_free_within_the_band_and_bounces_at_its_edge() {
-    let model = loose(0.0);
+    let model = approximate(0.0);
     let h = 1e-5;
     let mut plant = Plant::new(&model, Leapfrog, h).unwrap();
     let start = energy(&model, plant.state(), h).total();
@@ -55,7 +55,7 @@ fn flight_is_free_within_the_band_and_bounces_at_its_edge() {
 
 #[test]
 fn the_damper_acts_in_contact_only() {
-    let model = loose(30.0);
+    let model = approximate(30.0);
     let h = 1e-5;
     let mut plant = Plant::new(&model, Leapfrog, h).unwrap();
     let mut before = energy(&model, plant.state(), h).kinetic;
@@ -102,7 +102,7 @@ fn the_damped_force_is_continuous_at_the_edge_and_dissipates() {
     let clearance = 1e-3;
     let mut tsda = Bench::<F64>::new();
     let body = tsda.add_body(1.0, [0.1; 3], at([0.0; 3])).unwrap();
-    let stars = Stars {
+    let triples = Triples {
         between: [WORLD, body],
         centres: &[[0.0; 3]],
         arms: &[[0.05, 0.0, 0.0]],
@@ -111,7 +111,7 @@ fn the_damped_force_is_continuous_at_the_edge_and_dissipates() {
         free_length: 0.05,
         clearance,
     };
-    tsda.add_stars(stars).unwrap();
+    tsda.add_triples(triples).unwrap();
     let mut line = Bench::<F64>::new();
     let body = line.add_body(1.0, [0.1; 3], at([0.0; 3])).unwrap();
     let law = LineLaw { stiffness: 0.0, damping: 40.0, free_length: 0.0, clearance };
@@ -156,7 +156,7 @@ fn rattling<S: Scheme>(scheme: S, h: f64, time: f64) -> (State<Bench<F64>>, Vec<
         let (s, c) = (TAU / 3.0 * j as f64).sin_cos();
         [ring * c, 0.3 + ring * s, 0.0]
     });
-    let stars = Stars {
+    let triples = Triples {
         between: [WORLD, body],
         centres: &[[0.0, 0.0, -half], [0.0, 0.0, half]],
         arms: &tips,
@@ -165,7 +165,7 @@ fn rattling<S: Scheme>(scheme: S, h: f64, time: f64) -> (State<Bench<F64>>, Vec<
         free_length: (half * half + ring * ring).sqrt(),
         clearance: 5e-4,
     };
-    model.add_stars(stars).unwrap();
+    model.add_triples(triples).unwrap();
     let mut plant = Plant::new(&model, scheme, h).unwrap();
     let mut energies = vec![energy(&model, plant.state(), h).total()];
     for _ in 0..(time / h).round() as u64 {

@@ -15,8 +15,8 @@ fn scene(text: &str) -> Scene {
 }
 
 /// A disc of 1 kg, radius 0.1 m, at rest on a plane that gravity leans over by an angle \[rad\].
-fn disc(lean: f64, start: &str, contact: &str) -> Scene {
-    let (sin, cos) = lean.sin_cos();
+fn disc(axis_error: f64, start: &str, contact: &str) -> Scene {
+    let (sin, cos) = axis_error.sin_cos();
     let depth = G * cos / 1e5;
     scene(&format!(
         "name = \"disc\"\nduration = 1\ngravity = [{}, {}, 0]\n[[body]]\nname = \"disc\"\nmass = 1\n\
@@ -31,9 +31,9 @@ fn disc(lean: f64, start: &str, contact: &str) -> Scene {
 
 /// Place along the plane, velocity along it, rate about z after a time.
 fn after<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, step: f64, time: f64) -> [f64; 3] {
-    use dbd_kernel::keep::Keep as _;
+    use dbd_kernel::keep::Storage as _;
     let model: SceneModel<P> = scene.model.convert();
-    let model = if S::Keeps::MATRIX { model.planned() } else { model };
+    let model = if S::Storage::MATRIX { model.planned() } else { model };
     let mut plant = Plant::new(&model, scheme, step).unwrap();
     plant.advance((time / step).round() as u64).ok().unwrap();
     let state = widen(plant.state()).bodies[0];
@@ -43,10 +43,10 @@ fn after<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, step: f64, time: f64)
 /// On a slope of 30° a disc rolls with g·sin/(1 + I/(m·r²)), slides with g·(sin − μ·cos) where friction is too small.
 #[test]
 fn a_disc_rolls_or_slides_down_a_slope() {
-    let lean = 30_f64.to_radians();
-    let rolls = disc(lean, "", "friction = 0.5\ndamping = 50");
-    let slides = disc(lean, "", "friction = 0.15");
-    let (rolling, sliding) = (3.27, G * (lean.sin() - 0.15 * lean.cos()));
+    let axis_error = 30_f64.to_radians();
+    let rolls = disc(axis_error, "", "friction = 0.5\ndamping = 50");
+    let slides = disc(axis_error, "", "friction = 0.15");
+    let (rolling, sliding) = (3.27, G * (axis_error.sin() - 0.15 * axis_error.cos()));
     fn both<P: Geometry>(rolls: &Scene, slides: &Scene, scheme: impl Scheme) -> [[f64; 3]; 2] {
         [after::<P, _>(rolls, scheme, 1e-4, 1.0), after::<P, _>(slides, scheme, 1e-4, 1.0)]
     }
@@ -64,7 +64,7 @@ fn a_disc_rolls_or_slides_down_a_slope() {
         // The depth shortens the lever: v = −ω·(r − depth).
         assert!((v + spin * 0.1).abs() < 3e-3, "{name}: slips with {} m/s", v + spin * 0.1);
         // μ·N·r over the inertia: 25.5 rad/s² of spin, but while friction comes on at first.
-        let spun = 0.15 * G * lean.cos() * 0.1 / 0.005;
+        let spun = 0.15 * G * axis_error.cos() * 0.1 / 0.005;
         assert!((turn + spun).abs() < 0.1, "{name}: {turn} rad/s, not {spun}");
     }
 }
@@ -72,9 +72,9 @@ fn a_disc_rolls_or_slides_down_a_slope() {
 /// The same in the plane, in both precisions.
 #[test]
 fn a_plane_has_the_same_motion() {
-    let lean = 30_f64.to_radians();
+    let axis_error = 30_f64.to_radians();
     for contact in ["friction = 0.5\ndamping = 50\nrolling = 1e-3", "friction = 0.15"] {
-        let space = disc(lean, "", contact);
+        let space = disc(axis_error, "", contact);
         let flat = dbd_scene::reduced(&space).unwrap();
         let spatial = after::<F64, _>(&space, Leapfrog, 1e-4, 0.5);
         let double: SceneModel<Planar64> = flat.model.convert();
@@ -129,8 +129,8 @@ fn rolling_resistance_stops_a_disc() {
 }
 
 /// A plate on four points of its corners, on a slope.
-fn plate(lean: f64, friction: f64) -> Scene {
-    let (sin, cos) = lean.sin_cos();
+fn plate(axis_error: f64, friction: f64) -> Scene {
+    let (sin, cos) = axis_error.sin_cos();
     let mut text = format!(
         "name = \"plate\"\nduration = 1\ngravity = [{}, {}, 0]\n[[body]]\nname = \"plate\"\nmass = 2\n\
          inertia = [0.01, 0.02, 0.01]\nposition = [0, {}, 0]\n",
@@ -151,7 +151,7 @@ fn plate(lean: f64, friction: f64) -> Scene {
 /// Four feet hold a plate on a slope of 20° with μ = 0.5 for ever; with μ = 0.2 it slides with g·(sin − μ·cos).
 #[test]
 fn feet_stick_without_creep_and_slide() {
-    let lean = 20_f64.to_radians();
+    let axis_error = 20_f64.to_radians();
     fn creep<P: Geometry>(scene: &Scene) -> f64 {
         let model: SceneModel<P> = scene.model.convert();
         let mut plant = Plant::new(&model, Leapfrog, 2e-4).unwrap();
@@ -160,7 +160,7 @@ fn feet_stick_without_creep_and_slide() {
         plant.advance(100_000).ok().unwrap();
         widen(plant.state()).bodies[0].position.x - early
     }
-    let held = plate(lean, 0.5);
+    let held = plate(axis_error, 0.5);
     let all = [
         ("f64", creep::<F64>(&held), 1e-9),
         ("f32", creep::<F32>(&held), 1e-7),
@@ -169,8 +169,8 @@ fn feet_stick_without_creep_and_slide() {
     for (name, creep, most) in all {
         assert!(creep.abs() < most, "{name}: {creep:e} m in 20 s");
     }
-    let [_, v, _] = after::<F64, _>(&plate(lean, 0.2), Leapfrog, 2e-4, 1.0);
-    let slides = G * (lean.sin() - 0.2 * lean.cos());
+    let [_, v, _] = after::<F64, _>(&plate(axis_error, 0.2), Leapfrog, 2e-4, 1.0);
+    let slides = G * (axis_error.sin() - 0.2 * axis_error.cos());
     assert!((v - slides).abs() < 1e-2, "{v} {slides}");
 }
 

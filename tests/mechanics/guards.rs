@@ -2,7 +2,7 @@
 
 use dbd_kernel::frequency::bound;
 use dbd_kernel::index::TorsionIndex;
-use dbd_kernel::status::{Cause, MOST_TURN};
+use dbd_kernel::status::{Cause, MAX_TURN};
 use dbd_kernel::watch::Watch;
 use dbd_kernel::{
     BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, F32, F64, Geometry, Leapfrog, Pefrl,
@@ -31,9 +31,9 @@ fn spinning<P: Geometry>(turn: f64) -> Bench<P> {
 #[test]
 fn a_spin_beyond_a_radian_per_step_is_refused_in_every_scheme_and_precision() {
     fn refused<P: Geometry, S: Scheme>(scheme: S) {
-        let calm = spinning::<P>(0.99 * MOST_TURN);
+        let calm = spinning::<P>(0.99 * MAX_TURN);
         assert!(Plant::new(&calm, scheme, STEP).unwrap().advance(100).is_running(), "{}", S::NAME);
-        let wild = spinning::<P>(1.01 * MOST_TURN);
+        let wild = spinning::<P>(1.01 * MAX_TURN);
         let mut plant = Plant::new(&wild, scheme, STEP).unwrap();
         let failure = plant.step().ok().unwrap_err();
         assert_eq!(failure.cause, Cause::Spin { body: BodyIndex(1) }, "{} {}", S::NAME, P::NAME);

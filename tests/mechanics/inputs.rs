@@ -25,17 +25,17 @@ fn a_force_at_a_point_pushes_and_turns() {
     let push = model.add_input(kind, 0.0).unwrap();
     let axis = Vec3::new(0.0, 0.0, 1.0);
     let kind = InputKind::Torque { body, axis, frame: LoadFrame::World };
-    let twist = model.add_input(kind, 0.0).unwrap();
+    let torsion_angle = model.add_input(kind, 0.0).unwrap();
     let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
     // The torque cancels the force's moment −0.5·F, so the body slides without turning.
     plant.set_input(push, 4.0).unwrap();
-    plant.set_input(twist, 2.0).unwrap();
+    plant.set_input(torsion_angle, 2.0).unwrap();
     plant.advance(500).ok().unwrap();
     let state = plant.state().bodies[0];
     assert!((state.velocity.x - 1.0).abs() < 1e-12 && state.angular_velocity.z.abs() < 1e-12);
     assert!((state.position.x - 0.25).abs() < 1e-12);
     // Held until set again; then the force alone turns it at −F·0.5/Iz.
-    plant.set_input(twist, 0.0).unwrap();
+    plant.set_input(torsion_angle, 0.0).unwrap();
     plant.advance(1).ok().unwrap();
     let rate = plant.state().bodies[0].angular_velocity.z;
     assert!((rate + 4.0 * 0.5 / 0.25 * 1e-3).abs() < 1e-9, "{rate}");
@@ -257,7 +257,7 @@ fn hung_from(row: u16) -> Model<F64, 1, 1, 2, 1, 0, 0, 0, 0, 0, 0, 1> {
             law: Law::Tsda,
             a: BodyIndex::anchor(InputIndex(row)),
             b: body,
-            stars: 1,
+            triples: 1,
             arms: 1,
             shared: false,
             point: 0,

@@ -113,12 +113,12 @@ fn a_ball_rebounds_as_hunt_and_crossley_say() {
 fn every_scheme_and_precision_has_stops() {
     fn rebound<P: Geometry, S: Scheme>(scheme: S) -> f64 {
         let model: SceneModel<P> = impact().model.convert();
-        let model = if S::Keeps::MATRIX { model.planned() } else { model };
+        let model = if S::Storage::MATRIX { model.planned() } else { model };
         let mut plant = Plant::new(&model, scheme, 5e-5).unwrap();
         plant.advance(600).ok().unwrap();
         widen(plant.state()).bodies[0].velocity.y
     }
-    use dbd_kernel::keep::Keep as _;
+    use dbd_kernel::keep::Storage as _;
     let near = |what: &str, rebound: f64| {
         assert!((rebound - 0.711_950_18).abs() < 2e-3, "{what}: {rebound}");
     };

@@ -192,13 +192,13 @@ fn turning_the_world_frame_moves_what_it_holds() {
 /// Three bodies, tumbling, joined and hung, against their truth with quaternions.
 struct Case {
     time: f64,
-    truth: Vec<BodyState<F64>>,
+    reference_solution: Vec<BodyState<F64>>,
 }
 
 impl Case {
     fn new(time: f64) -> Self {
-        let truth = run(&hung_ring::<F64>(0.0), BlanesMoanS6, time / 8_000.0, 8_000);
-        Self { time, truth: truth.bodies.to_vec() }
+        let reference_solution = run(&hung_ring::<F64>(0.0), BlanesMoanS6, time / 8_000.0, 8_000);
+        Self { time, reference_solution: reference_solution.bodies.to_vec() }
     }
 
     /// The error after so many steps with Euler angles, and how often a sequence changed.
@@ -214,7 +214,7 @@ impl Case {
                 pairs.filter(|(a, b)| a.orientation.sequence != b.orientation.sequence).count();
         }
         let end: Vec<_> = plant.state().bodies.iter().map(BodyState::convert).collect();
-        (distance(&end, &self.truth), changes)
+        (distance(&end, &self.reference_solution), changes)
     }
 
     fn check<S: Scheme>(&self, scheme: S, steps: u64) {

@@ -3,7 +3,7 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_kernel::forces::{self, At, DampersLeft};
-use dbd_kernel::keep::Nothing;
+use dbd_kernel::keep::NoStorage;
 use dbd_kernel::model::Terms;
 use dbd_kernel::status::Cause;
 use dbd_kernel::step::Stepper;
@@ -27,7 +27,7 @@ impl Scheme for SweepsAlone {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         1
@@ -124,9 +124,9 @@ impl Creep {
         for i in 1..=100 {
             assert!(plant.advance(10).is_running());
             let sunk = -P::position_to_f64(&plant.state().bodies[0].position)[2];
-            let truth = self.sunk(damping, f64::from(10 * i) * self.step());
-            error = error.max((sunk - truth).abs());
-            motion = motion.max(truth);
+            let reference_solution = self.sunk(damping, f64::from(10 * i) * self.step());
+            error = error.max((sunk - reference_solution).abs());
+            motion = motion.max(reference_solution);
         }
         error / motion
     }
@@ -227,8 +227,8 @@ fn a_bushing_at_twenty_times_the_critical_damping() {
         let error = |mut plant: Box<dyn FnMut(u64) -> f64>, h: f64| {
             let steps = (0.25 / h) as u64;
             let sunk = plant(steps);
-            let truth = creep.sunk(40.0 * omega, steps as f64 * h);
-            (sunk / truth - 1.0).abs()
+            let reference_solution = creep.sunk(40.0 * omega, steps as f64 * h);
+            (sunk / reference_solution - 1.0).abs()
         };
         let h = z / omega;
         let model = creep.damped::<F64>(40.0 * omega);
@@ -256,21 +256,26 @@ fn suspensions_are_more_exact_at_equal_steps() {
         [("macpherson", 0.05, [2e-4, 1e-4]), ("double-wishbone", 0.1, [4e-4, 2e-4])]
     {
         let scene = scene(name);
-        let truth = Trajectory::truth(&scene, window, 10).unwrap();
+        let reference_solution = Trajectory::reference_solution(&scene, window, 10).unwrap();
         let mut errors = Vec::new();
         for step in steps {
-            let every = (truth.times[1] / step).round() as u64;
-            let h = truth.times[1] / every as f64;
-            let alone = worst(&truth, Plant::new(&scene.model, SweepsAlone, h).unwrap(), every);
-            let told = worst(&truth, Plant::new(&scene.model, Leapfrog, h).unwrap(), every);
-            assert!(told < 0.5 * alone, "{name}, {step}: {told:e}, {alone:e}");
+            let every = (reference_solution.times[1] / step).round() as u64;
+            let h = reference_solution.times[1] / every as f64;
+            let alone = worst(
+                &reference_solution,
+                Plant::new(&scene.model, SweepsAlone, h).unwrap(),
+                every,
+            );
+            let reported =
+                worst(&reference_solution, Plant::new(&scene.model, Leapfrog, h).unwrap(), every);
+            assert!(reported < 0.5 * alone, "{name}, {step}: {reported:e}, {alone:e}");
             let microseconds = format!("{:.0} µs", 1e6 * step);
-            let ratio = figure(alone / told, 2);
-            let cells = [alone, told].map(|error| format!("{error:.1e}"));
+            let ratio = figure(alone / reported, 2);
+            let cells = [alone, reported].map(|error| format!("{error:.1e}"));
             rows.push(
                 [name.to_owned(), microseconds].into_iter().chain(cells).chain([ratio]).collect(),
             );
-            errors.push([alone, told]);
+            errors.push([alone, reported]);
         }
         for (long, short) in errors[0].into_iter().zip(errors[1]) {
             let order = (long / short).log2();
@@ -282,16 +287,20 @@ fn suspensions_are_more_exact_at_equal_steps() {
 }
 
 /// \[m\] the largest distance of a body from the truth.
-fn worst<S: Scheme>(truth: &Trajectory, mut plant: Plant<&SceneModel<F64>, S>, every: u64) -> f64 {
+fn worst<S: Scheme>(
+    reference_solution: &Trajectory,
+    mut plant: Plant<&SceneModel<F64>, S>,
+    every: u64,
+) -> f64 {
     let positions = |plant: &Plant<&SceneModel<F64>, S>| -> Vec<Vector3<f64>> {
         plant.state().bodies.iter().map(|body| body.position.to_f64().into()).collect()
     };
     let mut run = vec![positions(&plant)];
-    for _ in 1..truth.times.len() {
+    for _ in 1..reference_solution.times.len() {
         assert!(plant.advance(every).is_running());
         run.push(positions(&plant));
     }
-    truth.errors(&run).into_iter().fold(0.0, f64::max)
+    reference_solution.errors(&run).into_iter().fold(0.0, f64::max)
 }
 
 /// An undamped oscillator's leapfrog keeps `½·v² + ½·ω²·(1 − (ω·h)²/4)·q²`; dampers, alone or side by

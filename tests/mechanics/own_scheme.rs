@@ -2,7 +2,7 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_kernel::forces::{At, DampersLeft, ExplicitDampers};
-use dbd_kernel::keep::Nothing;
+use dbd_kernel::keep::NoStorage;
 use dbd_kernel::model::Terms;
 use dbd_kernel::status::Cause;
 use dbd_kernel::step::Stepper;
@@ -20,7 +20,7 @@ impl Scheme for Verlet {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         1
@@ -56,7 +56,7 @@ impl Scheme for Midpoint {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = BodyState<P>;
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         2

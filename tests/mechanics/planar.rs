@@ -1,6 +1,6 @@
 //! A planar model moves as the spatial one with the same elements in z = 0, and holds as much.
 
-use dbd_kernel::builder::{BuildError, LineLaw, Quantity, Stars};
+use dbd_kernel::builder::{BuildError, LineLaw, Quantity, Triples};
 use dbd_kernel::damping::strengths;
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
@@ -44,7 +44,7 @@ fn pin(
         ([a[0], a[1], 0.0], [[b[0] + reach, b[1], 0.0], [b[0], b[1] + reach, 0.0]]);
     let clearance = 0.0;
     let (stiffness, free_length) = (900.0, 0.2);
-    let stars = Stars {
+    let triples = Triples {
         between,
         centres: &[centre],
         arms: &arms,
@@ -53,7 +53,7 @@ fn pin(
         free_length,
         clearance,
     };
-    model.add_stars(stars).unwrap();
+    model.add_triples(triples).unwrap();
 }
 
 /// A crank, a rod and a slider with every kind of element, load and input.
@@ -77,14 +77,14 @@ fn machine<P: Geometry>(damped: Damped) -> Bench<P> {
     model
         .add_points_on_line([WORLD, SLIDER], [0.0, 0.02, 0.0], [1.0, 0.1, 0.0], &points, rail)
         .unwrap();
-    let loose = LineLaw { free_length: 0.05, clearance: 1e-3, ..rail };
+    let approximate = LineLaw { free_length: 0.05, clearance: 1e-3, ..rail };
     let point = [[0.1, 0.05, 0.0]];
     model
-        .add_points_on_line([CRANK, ROD], [0.1, 0.1, 0.0], [0.6, 0.8, 0.0], &point, loose)
+        .add_points_on_line([CRANK, ROD], [0.1, 0.1, 0.0], [0.6, 0.8, 0.0], &point, approximate)
         .unwrap();
     let centres = [[0.0, 0.3, 0.0], [1.0, 0.6, 0.0]];
     let arms = [[0.1, 0.1, 0.0], [-0.1, 0.05, 0.0]];
-    let stars = Stars {
+    let triples = Triples {
         between: [WORLD, SLIDER],
         centres: &centres,
         arms: &arms,
@@ -93,7 +93,7 @@ fn machine<P: Geometry>(damped: Damped) -> Bench<P> {
         free_length: 0.4,
         clearance: 2e-3,
     };
-    model.add_stars(stars).unwrap();
+    model.add_triples(triples).unwrap();
     model.add_torsion_spring([WORLD, CRANK], Z, 4.0, 0.2 * along, 1.5).unwrap();
     model.add_torsion_spring([CRANK, ROD], [0.0, 0.0, -2.0], 1.0, 0.01 * along, -0.3).unwrap();
     model
@@ -373,13 +373,13 @@ fn the_builder_refuses_what_leaves_the_plane() {
 /// A const model of the plane has the bits of the builder's.
 #[test]
 fn a_sketch_has_the_bits_of_the_builder() {
-    use dbd_kernel::sketch::{Sketch, Spring, Start};
+    use dbd_kernel::model_spec::{ModelSpec, Spring, Start};
     const ARMS: [[f64; 3]; 2] = [[-0.1, 0.0, 0.0], [-0.3, 0.2, 0.0]];
     const SPRING: Spring = Spring { stiffness: 500.0, damping: 0.7, free_length: 0.2 };
-    const PENDULUM: Sketch = Sketch::new()
+    const PENDULUM: ModelSpec = ModelSpec::new()
         .gravity([0.0, -9.81, 0.0])
         .body(1.0, [0.1, 0.2, 0.25], Start::at([0.3, 0.0, 0.0]))
-        .stars([BodyIndex::WORLD, BodyIndex(0)], &[[0.0; 3]], &ARMS, SPRING)
+        .triples([BodyIndex::WORLD, BodyIndex(0)], &[[0.0; 3]], &ARMS, SPRING)
         .torsion_spring([BodyIndex::WORLD, BodyIndex(0)], [0.0, 0.0, 1.0], 2.0, 0.1, 0.3);
     dbd_kernel::model!(static DOUBLE: Planar64 = PENDULUM);
     dbd_kernel::model!(static SINGLE: Planar32 = PENDULUM);
@@ -392,7 +392,15 @@ fn a_sketch_has_the_bits_of_the_builder() {
         let (centres, arms, clearance) = (&[[0.0; 3]], &ARMS, 0.0);
         let between = [WORLD, body];
         model
-            .add_stars(Stars { between, centres, arms, stiffness, damping, free_length, clearance })
+            .add_triples(Triples {
+                between,
+                centres,
+                arms,
+                stiffness,
+                damping,
+                free_length,
+                clearance,
+            })
             .unwrap();
         model.add_torsion_spring(between, Z, 2.0, 0.1, 0.3).unwrap();
         let mut plant = Plant::new(Box::new(model), Leapfrog, 1e-3).unwrap();

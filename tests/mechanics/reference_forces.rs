@@ -1,7 +1,7 @@
 //! The std reference against the kernel: two writings of one set of equations.
 
 use dbd_bench::plain::Plain;
-use dbd_kernel::builder::{LineLaw, Stars};
+use dbd_kernel::builder::{LineLaw, Triples};
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::schedule::Signal;
@@ -83,7 +83,7 @@ fn everything() -> Bench<F64> {
     let law = LineLaw { stiffness: 30.0, damping: 0.9, free_length: 0.1, clearance: 0.2 };
     let points = [[0.2, 0.1, 0.0], [0.1, -0.3, 0.2]];
     model.add_points_on_line([b, a], [0.1, 0.0, 0.3], [0.3, 0.4, 1.2], &points, law).unwrap();
-    let stars = Stars {
+    let triples = Triples {
         between: [c, a],
         centres: &[[0.0; 3]],
         arms: &[[0.9, 0.0, 0.0], [0.0, 0.7, 0.0], [0.0, 0.0, 2.0]],
@@ -92,7 +92,7 @@ fn everything() -> Bench<F64> {
         free_length: 1.5,
         clearance: 0.1,
     };
-    model.add_stars(stars).unwrap();
+    model.add_triples(triples).unwrap();
     let load = |body, frame, until| Load {
         body,
         frame,

@@ -11,8 +11,8 @@ use dbd_kernel::{
 };
 use dbd_scene::{Scene, SceneModel};
 use dbd_study::reference::Mechanism;
+use dbd_study::reference::reference_solution::{Opinion, integrate};
 use dbd_study::reference::state::State;
-use dbd_study::reference::truth::{Opinion, integrate};
 use dbd_tests::at;
 
 /// A cart of 2 kg on a spring of 50 N/m along x, with this input.
@@ -44,7 +44,7 @@ fn end_in<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, step: f64) -> f64 {
 }
 
 /// x after a second by an integrator of order 8 that has its own tables.
-fn truth(scene: &Scene) -> f64 {
+fn reference_solution(scene: &Scene) -> f64 {
     let (mechanism, start) = Mechanism::of(scene);
     let states: Vec<State> = integrate(Opinion::Dop853, &mechanism, &start, &[1.0]).unwrap();
     states[0].bodies[0].position.x
@@ -58,7 +58,7 @@ fn a_sine_keeps_the_order_of_a_scheme() {
             "sine = {{ amplitude = {amplitude}, frequency = 4, phase = \"40 deg\", offset = -0.02 }}"
         );
         let scene = cart(&format!("{kind}{sine}"));
-        let exact = truth(&scene);
+        let exact = reference_solution(&scene);
         let order = |of: &dyn Fn(f64) -> f64| {
             let errors = [1.0 / 128.0, 1.0 / 256.0].map(|step| (of(step) - exact).abs());
             (errors[0] / errors[1]).log2()
@@ -88,13 +88,13 @@ fn a_table_that_repeats_is_the_same_table_written_out() {
             let same = if steps { one == other } else { (one - other).abs() < 1e-12 };
             assert!(same, "{way} {step}: {one} {other}");
         }
-        let far = (end(&repeated, Pefrl, 1.0 / 256.0) - truth(&repeated)).abs();
+        let far = (end(&repeated, Pefrl, 1.0 / 256.0) - reference_solution(&repeated)).abs();
         assert!(far < 1e-8, "{way}: {far}");
     }
     let saw = cart(&format!(
         "{FORCE}table = [[-1, 0], [0, 4]]\ninterpolate = \"linear\"\nperiodic = true\njump = true"
     ));
-    let far = (end(&saw, Pefrl, 1.0 / 256.0) - truth(&saw)).abs();
+    let far = (end(&saw, Pefrl, 1.0 / 256.0) - reference_solution(&saw)).abs();
     assert!(far < 1e-8, "{far}");
 }
 
@@ -105,7 +105,7 @@ fn a_table_over_a_read_out_is_a_spring_or_a_damper() {
     let brake = "over = \"speed.x\"\ninterpolate = \"linear\"\ntable = [[-9, 5], [0, 0], [9, -5]]";
     for table in [spring, brake] {
         let scene = cart(&format!("{FORCE}{table}"));
-        let exact = truth(&scene);
+        let exact = reference_solution(&scene);
         let errors = [1e-3, 5e-4].map(|step| (end(&scene, Leapfrog, step) - exact).abs());
         let ratio = errors[0] / errors[1];
         assert!(errors[1] < 1e-3 && (ratio - 2.0).abs() < 0.2, "{table}: {errors:?}");

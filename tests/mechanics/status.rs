@@ -1,6 +1,6 @@
 //! Failures latch and name what failed; a builder refuses what does not fit.
 
-use dbd_kernel::builder::{BuildError, LineLaw, ModelBuilder, Part, Quantity, Stars};
+use dbd_kernel::builder::{BuildError, LineLaw, ModelBuilder, Part, Quantity, Triples};
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::plant::{PlantError, StateError};
 use dbd_kernel::space::Linear as _;
@@ -106,7 +106,7 @@ fn a_spring_whose_twist_is_undefined_is_named() {
     model.add_torsion_spring([WORLD, body], [1.0, 0.0, 0.0], 0.0, 0.0, 0.0).unwrap();
     model.add_torsion_spring([WORLD, body], [0.0, 0.0, 1.0], 0.0, 0.0, 0.0).unwrap();
     let (cause, step) = failure(&model, Leapfrog, 1e-4);
-    assert_eq!(cause, Cause::UndefinedTwist { spring: dbd_kernel::index::TorsionIndex(1) });
+    assert_eq!(cause, Cause::UndefinedTorsionAngle { spring: dbd_kernel::index::TorsionIndex(1) });
     // Half a turn at 2 rad/s takes π/2 s.
     assert!((15_690..15_720).contains(&step), "{step}");
 }
@@ -146,7 +146,7 @@ fn a_builder_refuses_and_stays_as_it_was() {
     assert_eq!(tsda([WORLD, body], ends, 1.0, 0.0, -1.0), out(Quantity::FreeLength));
     let nowhere = [[f64::INFINITY, 0.0, 0.0], [0.0; 3]];
     assert_eq!(tsda([WORLD, body], nowhere, 1.0, 0.0, 1.0), out(Quantity::Point));
-    let four_arms = Stars {
+    let four_arms = Triples {
         between: [WORLD, body],
         centres: &[[0.0; 3]],
         arms: &[[0.0; 3]; 4],
@@ -155,7 +155,7 @@ fn a_builder_refuses_and_stays_as_it_was() {
         free_length: 1.0,
         clearance: 0.0,
     };
-    assert_eq!(model.add_stars(four_arms), out(Quantity::Arms));
+    assert_eq!(model.add_triples(four_arms), out(Quantity::Arms));
     let law = LineLaw { stiffness: 1.0, damping: 0.0, free_length: 0.0, clearance: 0.0 };
     let refused = model.add_points_on_line([WORLD, body], [0.0; 3], [0.0; 3], &[[0.0; 3]], law);
     assert_eq!(refused, out(Quantity::Axis));

@@ -32,9 +32,9 @@ fn a_bump_stop_throws_back_what_falls_on_it() {
     let square: f64 = (400.0 - weight) * (400.0 - weight) + 1e5 * (weight * (fall + 0.02) - 4.0);
     let depth = 0.02 + (weight - 400.0 + square.sqrt()) / 5e4;
     fn run<P: Geometry, S: Scheme>(scheme: S) -> [f64; 2] {
-        use dbd_kernel::keep::Keep as _;
+        use dbd_kernel::keep::Storage as _;
         let model: SceneModel<P> = falling(0.6, 0.0, -9.81, BUMP).model.convert();
-        let model = if S::Keeps::MATRIX { model.planned() } else { model };
+        let model = if S::Storage::MATRIX { model.planned() } else { model };
         let mut plant = Plant::new(&model, scheme, 1e-4).unwrap();
         let mut least: f64 = 1.0;
         while plant.time() < 0.3 {
@@ -88,9 +88,9 @@ fn braked(mut v: f64, push: f64) -> f64 {
 #[test]
 fn a_digressive_damper_brakes_as_its_table_says() {
     fn velocity<P: Geometry, S: Scheme>(scheme: S, step: f64, [v, push]: [f64; 2]) -> f64 {
-        use dbd_kernel::keep::Keep as _;
+        use dbd_kernel::keep::Storage as _;
         let model: SceneModel<P> = falling(1.0, v, push / 5.0, DIGRESSIVE).model.convert();
-        let model = if S::Keeps::MATRIX { model.planned() } else { model };
+        let model = if S::Storage::MATRIX { model.planned() } else { model };
         let mut plant = Plant::new(&model, scheme, step).unwrap();
         plant.advance((0.1 / step).round() as u64).ok().unwrap();
         widen(plant.state()).bodies[0].velocity.y

@@ -4,19 +4,19 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dbd_plant::judge::Judge;
+use dbd_plant::monitor::Monitor;
 use dbd_plant::{DampingName, Frequencies, Method, Named as _, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
 use dbd_study::recommend::{Ends, FURTHER, Limit, Mcu, Recommendation, Request, recommend};
 use dbd_study::reference::State;
 use dbd_study::reference::fine::states;
-use dbd_study::reference::truth::Opinion;
+use dbd_study::reference::reference_solution::Opinion;
 use dbd_study::variants::distance;
 use dbd_tests::mechanisms::{JOINTS, Kind, mechanism};
 use dbd_tests::{results, scene, scene_names};
 
 /// Of so many steps at most.
-const MOST_STEPS: u64 = 2_000_000;
+const MAX_STEPS: u64 = 2_000_000;
 
 /// \[s\] the accuracy is judged over so much of a scene at most.
 const WINDOW: f64 = 0.25;
@@ -35,7 +35,7 @@ const HEAD: &str = "scene,model,scheme,damping,precision,step_s,share_of_stable,
                     error_elsewhere_m,steps,stable,ends_s,load_168mhz,instructions\n";
 
 const KIND: Kind =
-    Kind { planar: false, joints: JOINTS, damping: [0.0, 0.2], driven: true, loose: false };
+    Kind { planar: false, joints: JOINTS, damping: [0.0, 0.2], driven: true, approximate: false };
 
 /// What an advice came to.
 struct Held {
@@ -76,12 +76,12 @@ fn held(scene: &Scene, window: Option<f64>) -> Result<Held, String> {
     let step = advice.way.step;
     let mut plant = plant(&model, &method, step).unwrap();
     let over = if advice.ends.is_some() { 1.0 } else { FURTHER };
-    let all = ((over * scene.duration / step).round() as u64).min(MOST_STEPS);
-    let mut judge = Judge::new(&model, plant.as_ref());
+    let all = ((over * scene.duration / step).round() as u64).min(MAX_STEPS);
+    let mut monitor = Monitor::new(&model, plant.as_ref());
     let mut stable = true;
     while stable && plant.steps() < all {
         let some = (all / 500).max(1).min(all - plant.steps());
-        stable = plant.advance(some).is_running() && judge.judge(&plant.state()).is_ok();
+        stable = plant.advance(some).is_running() && monitor.monitor(&plant.state()).is_ok();
     }
     let ends = advice.ends.as_ref().is_none_or(|ends| comes_apart(scene, ends));
     Ok(Held { steps: plant.steps(), stable, ends, elsewhere: elsewhere(scene, &advice), advice })
@@ -92,14 +92,14 @@ fn comes_apart(scene: &Scene, ends: &Ends) -> bool {
     let method = Method::new(SchemeName::SemiImplicitEuler, None, PrecisionName::F64).unwrap();
     let step = Frequencies::of(scene).default_limit(&Method::default(), scene.duration) / 24.0;
     let mut plant = plant(scene, &method, step).unwrap();
-    let mut judge = Judge::new(scene, plant.as_ref());
+    let mut monitor = Monitor::new(scene, plant.as_ref());
     while plant.time() < FURTHER * scene.duration {
-        if !plant.advance(50).is_running() || judge.judge(&plant.state()).is_err() {
+        if !plant.advance(50).is_running() || monitor.monitor(&plant.state()).is_err() {
             return true;
         }
         let open = |joint: &String| {
             let row = scene.joints.iter().position(|other| other.name == *joint).unwrap();
-            let opening = &judge.openings()[row];
+            let opening = &monitor.openings()[row];
             opening.extension > opening.free_length
         };
         if ends.joint.as_ref().is_some_and(open) {
@@ -119,14 +119,14 @@ fn elsewhere(scene: &Scene, advice: &Recommendation) -> Option<f64> {
         return None;
     }
     let times: Vec<f64> = (0..=steps / stride).map(|row| (row * stride) as f64 * step).collect();
-    let truth = states(Opinion::Verner98, scene, false, &times).unwrap();
+    let reference_solution = states(Opinion::Verner98, scene, false, &times).unwrap();
     let mut plant = plant(&model, &method, step).unwrap();
     let mut run = vec![State::of(&plant.state())];
     while run.len() < times.len() {
         assert!(plant.advance(stride).is_running());
         run.push(State::of(&plant.state()));
     }
-    Some(distance((scene, &truth), (&model, &run)))
+    Some(distance((scene, &reference_solution), (&model, &run)))
 }
 
 impl Held {

@@ -21,7 +21,7 @@ use crate::command::{builds_once, cargo, cargo_once, output, program, root, targ
 const LOG: &str = "DBD_COMPILE_LOG";
 const FILE: &str = "xtask/compile-times.csv";
 /// A crate may take so many times its budget before the step fails: parts of it are as noisy as the machine.
-const MOST: f64 = 1.3;
+const MAX: f64 = 1.3;
 /// Shares below this are noise.
 const LEAST: f64 = 0.02;
 /// Ticks of a second in `/proc`, on every Linux that has a port of Rust's.
@@ -117,13 +117,13 @@ fn budgets(of: Build) -> Result<Times> {
     Ok(read(&text, of.name()))
 }
 
-fn judge(times: &Times, budgets: &Times) -> Result<()> {
+fn monitor(times: &Times, budgets: &Times) -> Result<()> {
     let over = over(times, budgets);
     if over.is_empty() {
         return Ok(());
     }
     bail!(
-        "{} take more than {MOST} times their budget; where that is meant: \
+        "{} take more than {MAX} times their budget; where that is meant: \
          cargo xtask compile-times --write",
         over.join(", ")
     )
@@ -146,7 +146,7 @@ pub fn run(builds: &[Build], write: bool) -> Result<()> {
         let budgets = budgets(*build)?;
         print!("{}", table(&times, &budgets));
         if !write {
-            judge(&times, &budgets)?;
+            monitor(&times, &budgets)?;
             continue;
         }
         let commit = output(program("git").args(["log", "-1", "--format=%h,%cs"]))?;
@@ -184,7 +184,7 @@ fn shares(times: &Times) -> Times {
 
 /// Crates that take more than they may, with what they take; a crate without a budget may take nothing.
 fn over(times: &Times, budgets: &Times) -> Vec<String> {
-    let most = |name: &str| MOST * budgets.get(name).copied().unwrap_or(0.0) + LEAST;
+    let most = |name: &str| MAX * budgets.get(name).copied().unwrap_or(0.0) + LEAST;
     let all = shares(times).into_iter().filter(|(name, share)| *share > most(name));
     all.map(|(name, share)| format!("{name} ({share:.3} of the registry's)")).collect()
 }

@@ -23,7 +23,7 @@ const SIZES: [u64; 4] = [10, 100, 1_000, 10_000];
 const FEW: [u64; 2] = [80, 320];
 /// No exponent may be above: longer names and the ends of a chain make 0.01 of it. A hundred
 /// instructions for each pair of bodies come to 1.04 and more at the few sizes.
-const MOST: f64 = 1.03;
+const MAX: f64 = 1.03;
 const FILE: &str = "docs/results/growth.csv";
 
 /// Instructions of a way, by size.
@@ -45,7 +45,7 @@ pub fn run() -> Result<()> {
         .with_context(|| format!("cannot write {FILE}"))?;
     println!("written: {FILE}");
     crate::provenance::note(&[FILE])?;
-    judge(&rows, &SIZES)
+    monitor(&rows, &SIZES)
 }
 
 /// The step of `cargo xtask test`: two small sizes, of a program that the tests' build has built.
@@ -56,7 +56,7 @@ pub fn check(built: &[Program]) -> Result<()> {
     setup::counter()?;
     let rows = rows(built, &FEW)?;
     println!("{}", table(&rows, &FEW));
-    judge(&rows, &FEW)
+    monitor(&rows, &FEW)
 }
 
 fn rows(built: &[Program], sizes: &[u64]) -> Result<Vec<Row>> {
@@ -82,16 +82,16 @@ fn exponents(counts: &[u64], sizes: &[u64]) -> Vec<f64> {
 }
 
 /// The last two sizes tell: at first what is paid once per scene hides the growth.
-fn judge(rows: &[Row], sizes: &[u64]) -> Result<()> {
+fn monitor(rows: &[Row], sizes: &[u64]) -> Result<()> {
     let above = rows.iter().filter_map(|row| {
         let last = exponents(&row.counts, sizes).last().copied()?;
-        (last > MOST).then(|| format!("{} grows with the exponent {last:.2}", row.way))
+        (last > MAX).then(|| format!("{} grows with the exponent {last:.2}", row.way))
     });
     let above: Vec<String> = above.collect();
     if !above.is_empty() {
-        bail!("{}; at most {MOST} is linear", above.join(", "));
+        bail!("{}; at most {MAX} is linear", above.join(", "));
     }
-    println!("all exponents are at most {MOST}");
+    println!("all exponents are at most {MAX}");
     Ok(())
 }
 
@@ -128,9 +128,9 @@ mod tests {
     #[test]
     fn what_is_quadratic_is_refused() {
         let row = |counts: [u64; 2]| [Row { way: "load", counts: counts.to_vec() }];
-        assert!(judge(&row([1_000, 4_100]), &FEW).is_ok());
-        assert!(judge(&row([1_000, 4_300]), &FEW).is_err());
-        assert!(judge(&row([1_000, 16_000]), &FEW).is_err());
+        assert!(monitor(&row([1_000, 4_100]), &FEW).is_ok());
+        assert!(monitor(&row([1_000, 4_300]), &FEW).is_err());
+        assert!(monitor(&row([1_000, 16_000]), &FEW).is_err());
         assert_eq!(exponents(&[10, 100, 10_000], &[10, 100, 1_000]), [1.0, 2.0]);
     }
 }

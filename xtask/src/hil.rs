@@ -229,11 +229,12 @@ impl Bench {
             (joined(chip), served)
         });
         let (lines, served) = (lines?, served?);
-        let told = |lines: &[String]| -> Vec<String> {
-            let is_told = |line: &&String| line.starts_with("loop ") || line.starts_with("last ");
-            lines.iter().filter(is_told).cloned().collect()
+        let reported = |lines: &[String]| -> Vec<String> {
+            let is_reported =
+                |line: &&String| line.starts_with("loop ") || line.starts_with("last ");
+            lines.iter().filter(is_reported).cloned().collect()
         };
-        if told(&alone).is_empty() || told(&alone) != told(&lines) {
+        if reported(&alone).is_empty() || reported(&alone) != reported(&lines) {
             bail!("the controller on the chip behaves differently with a remote plant");
         }
         println!(

@@ -53,7 +53,7 @@ enum Present {
 pub(crate) struct Members<V: Register, S: InLanes> {
     plants: Vec<PlantOf<V::Number, S>>,
     /// The member in each lane; the first lane of a member is the authoritative one.
-    seats: Vec<usize>,
+    lumped_joints: Vec<usize>,
     /// The plant of the lanes, once any member runs.
     lanes: Option<LanesPlant<V, S>>,
     present: Present,
@@ -66,24 +66,24 @@ pub(crate) struct Members<V: Register, S: InLanes> {
 impl<V: Register, S: InLanes> Members<V, S> {
     /// A batch of at most as many plants as the register has lanes, with the same structure, scheme and step.
     pub(crate) fn new(plants: Vec<PlantOf<V::Number, S>>) -> Self {
-        let seats = Vec::new();
+        let lumped_joints = Vec::new();
         let (lanes, present) = (None, Present::Members);
-        Self { plants, seats, lanes, present, running: 0, from_start: false }
+        Self { plants, lumped_joints, lanes, present, running: 0, from_start: false }
     }
 
     /// Loads the members' states into the lanes; `None` if none of them runs. All lanes are at the step of the first
     /// running member.
-    fn seat(&mut self) -> Option<()> {
+    fn lumped_joint(&mut self) -> Option<()> {
         if self.present == Present::Members {
             let all = 0..self.plants.len();
             let running = |&member: &usize| self.plants[member].status().is_running();
             let step = |member: usize| self.plants[member].state().step;
             let first = all.clone().find(running)?;
-            let mut seats: Vec<usize> =
+            let mut lumped_joints: Vec<usize> =
                 all.filter(running).filter(|&member| step(member) == step(first)).collect();
-            seats.resize(V::LANES, first);
-            let plants: Vec<_> = seats.iter().map(|&member| &self.plants[member]).collect();
-            if self.lanes.is_none() || self.seats != seats {
+            lumped_joints.resize(V::LANES, first);
+            let plants: Vec<_> = lumped_joints.iter().map(|&member| &self.plants[member]).collect();
+            if self.lanes.is_none() || self.lumped_joints != lumped_joints {
                 let models: Vec<_> = plants.iter().map(|plant| plant.model()).collect();
                 let model = Box::new(gather::model::<V>(&models));
                 let plant = Plant::new(model, *plants[0].scheme(), plants[0].step_size());
@@ -94,8 +94,8 @@ impl<V: Register, S: InLanes> Members<V, S> {
             let lanes = self.lanes.as_mut()?;
             self.from_start = state.step == 0 && lanes.evaluations() == 0;
             lanes.resume(state);
-            self.running = own_lanes(&seats).fold(0, |running, lane| running | 1 << lane);
-            self.seats = seats;
+            self.running = own_lanes(&lumped_joints).fold(0, |running, lane| running | 1 << lane);
+            self.lumped_joints = lumped_joints;
             self.present = Present::Both;
         }
         Some(())
@@ -104,9 +104,10 @@ impl<V: Register, S: InLanes> Members<V, S> {
     /// Stores the lanes' states in the members' plants.
     fn leave(&mut self) {
         if let (Present::Lanes, Some(lanes)) = (self.present, &self.lanes) {
-            for lane in own_lanes(&self.seats).filter(|lane| self.running >> lane & 1 != 0) {
+            for lane in own_lanes(&self.lumped_joints).filter(|lane| self.running >> lane & 1 != 0)
+            {
                 let state = gather::lane(lanes.state(), lane);
-                self.plants[self.seats[lane]].resume(state);
+                self.plants[self.lumped_joints[lane]].resume(state);
             }
             self.present = Present::Both;
         }
@@ -121,9 +122,9 @@ impl<V: Register, S: InLanes> Members<V, S> {
             }
             return running;
         }
-        self.seat();
+        self.lumped_joint();
         let apart: Vec<usize> =
-            (0..self.plants.len()).filter(|member| !self.seats.contains(member)).collect();
+            (0..self.plants.len()).filter(|member| !self.lumped_joints.contains(member)).collect();
         let Some(lanes) = self.lanes.as_mut().filter(|_| self.present != Present::Members) else {
             return false;
         };
@@ -137,14 +138,15 @@ impl<V: Register, S: InLanes> Members<V, S> {
             let _ = self.plants[member].advance(steps);
         }
         let running = self.running;
-        let doubted: Vec<usize> =
-            own_lanes(&self.seats).filter(|lane| (doubted & running) >> lane & 1 != 0).collect();
+        let doubted: Vec<usize> = own_lanes(&self.lumped_joints)
+            .filter(|lane| (doubted & running) >> lane & 1 != 0)
+            .collect();
         if doubted.is_empty() {
             return true;
         }
         self.leave();
         for lane in doubted {
-            let plant = &mut self.plants[self.seats[lane]];
+            let plant = &mut self.plants[self.lumped_joints[lane]];
             let made = plant.hash();
             plant.resume(gather::lane(&before, lane));
             if !plant.advance(steps).is_running() {
@@ -162,8 +164,8 @@ impl<V: Register, S: InLanes> Members<V, S> {
 }
 
 /// The authoritative lanes of the members.
-fn own_lanes(seats: &[usize]) -> impl Iterator<Item = usize> {
-    (0..seats.len()).filter(|&lane| !seats[..lane].contains(&seats[lane]))
+fn own_lanes(lumped_joints: &[usize]) -> impl Iterator<Item = usize> {
+    (0..lumped_joints.len()).filter(|&lane| !lumped_joints[..lane].contains(&lumped_joints[lane]))
 }
 
 /// Whether any revolution count of a running lane may overflow within the given number of steps.
@@ -198,7 +200,8 @@ impl<V: Register, S: InLanes + Send> Batch<V::Number, S> for Members<V, S> {
     }
 
     fn evaluations(&self, member: usize) -> Option<u64> {
-        let lane = own_lanes(&self.seats).find(|&lane| self.seats[lane] == member)?;
+        let lane =
+            own_lanes(&self.lumped_joints).find(|&lane| self.lumped_joints[lane] == member)?;
         let steady = self.from_start && self.running >> lane & 1 != 0;
         Some(self.lanes.as_ref()?.evaluations()).filter(|_| steady)
     }
@@ -219,7 +222,7 @@ impl<V: Register, S: InLanes> Work for Block<'_, V, S> {
         let Self { lanes, steps } = self;
         let h = Lanes::<V>::from_f64(lanes.step_size());
         let one = Lanes::<V>::ONE;
-        let mut calm = Lanes::<V>::truth(true);
+        let mut calm = Lanes::<V>::mask(true);
         for _ in 0..steps {
             // Lanes do not report failures: an invalid operation yields NaN.
             let _ = lanes.step_unguarded();

@@ -9,7 +9,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use dbd_kernel::Real;
 use dbd_kernel::geometry::Named;
-use dbd_kernel::real::{Constant, Truth as _};
+use dbd_kernel::real::{Constant, Mask as _};
 use dbd_kernel::space::Space;
 use dbd_kernel::words::{Word, WordSource};
 
@@ -111,7 +111,7 @@ impl<V: Register> Named for Lanes<V> {
 
 impl<V: Register> Real for Lanes<V> {
     const LANES: usize = V::LANES;
-    type Truth = V::Truth;
+    type Mask = V::Mask;
     type Count = V::Count;
 
     const ZERO: Self = Self(V::NUMBERS[0]);
@@ -161,28 +161,28 @@ impl<V: Register> Real for Lanes<V> {
     }
 
     #[inline(always)]
-    fn truth(holds: bool) -> V::Truth {
-        V::truth(|_| holds)
+    fn mask(holds: bool) -> V::Mask {
+        V::mask(|_| holds)
     }
     #[inline(always)]
-    fn equals(self, other: Self) -> V::Truth {
+    fn equals(self, other: Self) -> V::Mask {
         self.0.equals(other.0)
     }
     #[inline(always)]
-    fn less_than(self, other: Self) -> V::Truth {
+    fn less_than(self, other: Self) -> V::Mask {
         self.0.less_than(other.0)
     }
     #[inline(always)]
-    fn at_most(self, other: Self) -> V::Truth {
+    fn at_most(self, other: Self) -> V::Mask {
         self.0.at_most(other.0)
     }
     #[inline(always)]
-    fn pick(truth: V::Truth, then: Self, otherwise: Self) -> Self {
-        Self(V::pick(truth, then.0, otherwise.0))
+    fn pick(mask: V::Mask, then: Self, otherwise: Self) -> Self {
+        Self(V::pick(mask, then.0, otherwise.0))
     }
     #[inline(always)]
-    fn only_where(self, truth: V::Truth) -> Option<Self> {
-        Some(Self(V::pick(truth, self.0, V::NUMBERS[8])))
+    fn only_where(self, mask: V::Mask) -> Option<Self> {
+        Some(Self(V::pick(mask, self.0, V::NUMBERS[8])))
     }
     #[inline(always)]
     fn counts(stored: &[i32]) -> &[V::Count] {
@@ -198,22 +198,22 @@ impl<V: Register> Real for Lanes<V> {
         Self(V::from_lanes(|lane| V::Number::from_i32(count[lane])))
     }
     #[inline(always)]
-    fn is_odd(count: V::Count) -> V::Truth {
+    fn is_odd(count: V::Count) -> V::Mask {
         let count = count.as_ref();
-        V::truth(|lane| count[lane] & 1 != 0)
+        V::mask(|lane| count[lane] & 1 != 0)
     }
     #[inline(always)]
-    fn is_nil(count: V::Count) -> V::Truth {
+    fn is_nil(count: V::Count) -> V::Mask {
         let count = count.as_ref();
-        V::truth(|lane| count[lane] == 0)
+        V::mask(|lane| count[lane] == 0)
     }
     #[inline(always)]
-    fn recount(mut count: V::Count, truth: V::Truth, up: V::Truth) -> V::Count {
-        let (truth, up) = (V::bits(truth), V::bits(up));
-        if truth != 0 {
+    fn recount(mut count: V::Count, mask: V::Mask, up: V::Mask) -> V::Count {
+        let (mask, up) = (V::bits(mask), V::bits(up));
+        if mask != 0 {
             for (lane, count) in count.as_mut().iter_mut().enumerate() {
-                let [truth, up] = [truth, up].map(|truths| truths >> lane & 1 != 0);
-                *count = V::Number::recount(*count, truth, up);
+                let [mask, up] = [mask, up].map(|masks| masks >> lane & 1 != 0);
+                *count = V::Number::recount(*count, mask, up);
             }
         }
         count

@@ -222,7 +222,7 @@ fn points_that_coincide_in_one_lane_give_it_no_force() {
             law: Law::Tsda,
             a: BodyIndex::WORLD,
             b: BodyIndex(0),
-            stars: 1,
+            triples: 1,
             arms: 1,
             shared: false,
             point: 0,
@@ -288,7 +288,7 @@ fn a_lane_without_a_twist_fails_where_its_instance_does() {
     let alone = in_f32("tumbling", &models, 0.01, InstructionSet::best());
     assert!(matches!(
         alone[1].status(),
-        Status::Failed(failure) if matches!(failure.cause, Cause::UndefinedTwist { .. })
+        Status::Failed(failure) if matches!(failure.cause, Cause::UndefinedTorsionAngle { .. })
     ));
     assert!(alone[0].status().is_running() && alone[2].status().is_running());
 }

@@ -61,7 +61,7 @@ fn values_that_are_none_are_refused_and_change_nothing() {
         let fmu = unpacked(scene("cart-pendulum"), Settings::default(), fmi);
         let host = fmu.host();
         assert_eq!(host.set("body.cart.mass", f64::NAN), ERROR);
-        says(&host, "the parameter `body.cart.mass` cannot be NaN");
+        says(&host, "the parameter `body.cart.mass` cannot be set to NaN");
         assert_eq!(host.initialize(), OK);
         let before = host.everything();
         for value in [f64::NAN, f64::INFINITY] {

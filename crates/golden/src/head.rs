@@ -48,7 +48,7 @@ impl<N: Display> Display for PrecisionTag<N> {
 
 /// Number of digits of each quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Numerals {
+pub struct NumberFormat {
     /// Of a position.
     pub position: Digits,
     /// Of an orientation.
@@ -59,7 +59,7 @@ pub struct Numerals {
     pub value: Digits,
 }
 
-impl Numerals {
+impl NumberFormat {
     /// In the order of the head's line.
     pub(crate) const fn all(self) -> [Digits; 4] {
         [self.position, self.orientation, self.velocity, self.value]
@@ -82,7 +82,7 @@ pub struct Identity<'a> {
     /// The precision.
     pub precision: PrecisionTag<&'a str>,
     /// Number of digits of its numbers.
-    pub numerals: Numerals,
+    pub number_format: NumberFormat,
     /// \[s\] the step as given.
     pub step_size: f64,
     /// Hash of the model, the same in every precision: [`dbd_kernel::fingerprint::model_hash`].
@@ -127,7 +127,7 @@ impl<'a> Head<'a> {
 
     /// Writes the head, including the line of column names.
     pub(crate) fn write(&self, to: &mut impl Write) -> fmt::Result {
-        let Identity { scheme, precision, numerals, step_size, model, bodies, turns } =
+        let Identity { scheme, precision, number_format, step_size, model, bodies, turns } =
             self.identity;
         writeln!(to, "{FIRST}{VERSION}")?;
         writeln!(to, "# scene: {}", self.scene)?;
@@ -135,7 +135,7 @@ impl<'a> Head<'a> {
         writeln!(to, "# scheme: {}\t{}\t{}", scheme.name, scheme.damping, scheme.evaluations)?;
         writeln!(to, "# precision: {}\t{}", precision.name, precision.orientation)?;
         to.write_str("# digits:")?;
-        for digits in numerals.all() {
+        for digits in number_format.all() {
             write!(to, " {}", digits.name())?;
         }
         writeln!(to, "\n# step: {step_size:?}")?;

@@ -18,11 +18,11 @@
 //!
 //! ```
 //! use dbd_golden::{Comparison, Golden, Head, Recorder, Subject as _, Tolerance};
-//! use dbd_kernel::sketch::{Sketch, Start};
+//! use dbd_kernel::model_spec::{ModelSpec, Start};
 //! use dbd_kernel::{Leapfrog, Plant, model};
 //!
-//! const SKETCH: Sketch = Sketch::new().gravity([0.0, -9.81, 0.0]).body(1.0, [0.1; 3], Start::at([0.0; 3]));
-//! model!(static BALL: F32 = SKETCH);
+//! const MODEL_SPEC: ModelSpec = ModelSpec::new().gravity([0.0, -9.81, 0.0]).body(1.0, [0.1; 3], Start::at([0.0; 3]));
+//! model!(static BALL: F32 = MODEL_SPEC);
 //!
 //! let mut plant = Plant::new(&BALL, Leapfrog, 1e-3)?;
 //! let identity = plant.identity();

@@ -8,9 +8,9 @@ use dbd_kernel::fingerprint::model_hash;
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::{F64, ModelOwner, Plant, Real, Scheme, Vec3};
 use dbd_plant::AnyPlant;
-use dbd_plant::numerals::Digits as StoredDigits;
+use dbd_plant::number_format::Digits as StoredDigits;
 
-use crate::head::{Identity, Numerals, PrecisionTag, SchemeTag};
+use crate::head::{Identity, NumberFormat, PrecisionTag, SchemeTag};
 use crate::number::Digits;
 use crate::subject::{BodyNumbers, Moment, Subject, numbers};
 
@@ -40,7 +40,7 @@ impl Moment for dyn AnyPlant + '_ {
 
 impl Subject for dyn AnyPlant + '_ {
     fn identity(&self) -> Identity<'static> {
-        let (method, numerals) = (self.method(), self.numerals());
+        let (method, number_format) = (self.method(), self.number_format());
         let digits = |stored| match stored {
             StoredDigits::Single => Digits::Single,
             StoredDigits::Double => Digits::Double,
@@ -55,11 +55,11 @@ impl Subject for dyn AnyPlant + '_ {
                 name: method.precision_name(),
                 orientation: method.orientation_name(),
             },
-            numerals: Numerals {
-                position: digits(numerals.position),
-                orientation: digits(numerals.orientation),
-                velocity: digits(numerals.velocity),
-                value: digits(numerals.reading),
+            number_format: NumberFormat {
+                position: digits(number_format.position),
+                orientation: digits(number_format.orientation),
+                velocity: digits(number_format.velocity),
+                value: digits(number_format.reading),
             },
             step_size: self.step_size(),
             model: model_hash(self.model()),

@@ -6,7 +6,7 @@
 use core::fmt::{self, Display, Write};
 
 use crate::chain::{Chain, Chained};
-use crate::head::{Head, Numerals};
+use crate::head::{Head, NumberFormat};
 use crate::subject::Moment;
 
 /// Why a sample could not be recorded.
@@ -110,7 +110,7 @@ struct Shape {
     bodies: usize,
     turns: usize,
     values: usize,
-    numerals: Numerals,
+    number_format: NumberFormat,
     every: u64,
 }
 
@@ -135,7 +135,7 @@ impl<W: Write> Recorder<W> {
             bodies: identity.bodies,
             turns: identity.turns,
             values: head.values.len(),
-            numerals: identity.numerals,
+            number_format: identity.number_format,
             every: head.every,
         };
         let mut recorder = Self { sink, chain: Chain::new(), shape, samples: 0, last: None };
@@ -233,7 +233,7 @@ fn row(
     for body in (0..shape.bodies).filter_map(|row| moment.body_numbers(row)) {
         for (column, value) in body.into_iter().enumerate() {
             to.write_char('\t')?;
-            shape.numerals.of_column(column).write(value, to)?;
+            shape.number_format.of_column(column).write(value, to)?;
         }
     }
     for spring in 0..shape.turns {
@@ -241,7 +241,7 @@ fn row(
     }
     for value in values {
         to.write_char('\t')?;
-        shape.numerals.value.write(*value, to)?;
+        shape.number_format.value.write(*value, to)?;
     }
     Ok(())
 }

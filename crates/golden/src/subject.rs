@@ -10,7 +10,7 @@ use dbd_kernel::fingerprint::model_hash;
 use dbd_kernel::words::{Word, WordVisitor, Words};
 use dbd_kernel::{BodyState, Geometry, ModelOwner, Plant, Real, Scheme};
 
-use crate::head::{Identity, Numerals, PrecisionTag, SchemeTag};
+use crate::head::{Identity, NumberFormat, PrecisionTag, SchemeTag};
 use crate::number::Digits;
 
 /// The numbers of a body: position \[m\] (x, y, z), unit quaternion body → world (w, x, y, z), velocity
@@ -71,7 +71,7 @@ where
                 evaluations: self.scheme().evaluations(),
             },
             precision: PrecisionTag { name: Of::<H>::NAME, orientation: Of::<H>::ORIENTATION },
-            numerals: numerals::<Of<H>>(),
+            number_format: number_format::<Of<H>>(),
             step_size: self.step_size(),
             model: model_hash(self.model()),
             bodies: self.state().bodies.as_ref().len(),
@@ -90,8 +90,8 @@ pub(crate) fn numbers<P: Geometry>(body: &BodyState<P>) -> BodyNumbers {
 }
 
 /// Number of digits of the numbers of a precision.
-fn numerals<P: Geometry>() -> Numerals {
-    Numerals {
+fn number_format<P: Geometry>() -> NumberFormat {
+    NumberFormat {
         position: digits(&P::Position::default(), 3),
         orientation: digits(&P::Orientation::default(), 4),
         velocity: digits(&P::Velocity::default(), 3),

@@ -5,7 +5,7 @@
 
 use crate::chain::Chain;
 use crate::component::ENDS;
-use crate::head::{FIRST, Identity, Numerals, PrecisionTag, SchemeTag, VERSION};
+use crate::head::{FIRST, Identity, NumberFormat, PrecisionTag, SchemeTag, VERSION};
 use crate::mismatch::{Damage, KNOWN, Mismatch};
 use crate::number::{Digits, read_hash};
 use crate::record::Ending;
@@ -122,12 +122,12 @@ impl<'g> Golden<'g> {
             let (name, orientation) = text.split_once('\t')?;
             Some(PrecisionTag { name, orientation })
         })?;
-        let numerals = head.parsed("# digits: ", |text| {
+        let number_format = head.parsed("# digits: ", |text| {
             let mut digits = text.split(' ').map(Digits::of_name);
             let mut next = || digits.next().flatten();
             let (position, orientation) = (next()?, next()?);
             let (velocity, value) = (next()?, next()?);
-            Some(Numerals { position, orientation, velocity, value })
+            Some(NumberFormat { position, orientation, velocity, value })
         })?;
         let step_size = head.parsed("# step: ", |text| text.parse().ok())?;
         let every = head.parsed("# every: ", |text| text.parse().ok())?;
@@ -135,7 +135,8 @@ impl<'g> Golden<'g> {
         let turns = head.parsed("# turns: ", |text| text.parse::<u16>().ok())?.into();
         let values = head.parsed("# values: ", |text| text.parse::<u16>().ok())?.into();
         let header = head.next("step\tstate\t")?;
-        let identity = Identity { scheme, precision, numerals, step_size, model, bodies, turns };
+        let identity =
+            Identity { scheme, precision, number_format, step_size, model, bodies, turns };
         let HeadLines { lines, chain } = head;
         let mut golden = Self { scene, identity, every, values, header, lines, samples: 0 };
         if header.split('\t').count() != golden.numbers() + 1 || !header.ends_with("\tchain") {
@@ -253,12 +254,12 @@ impl<'g> Golden<'g> {
     pub(crate) fn digits(&self, place: usize) -> Digits {
         let bodies = ENDS.len() * self.identity.bodies;
         if place < bodies {
-            self.identity.numerals.of_column(place % ENDS.len())
+            self.identity.number_format.of_column(place % ENDS.len())
         } else if place < bodies + self.identity.turns {
             // A count, which may exceed single precision.
             Digits::Double
         } else {
-            self.identity.numerals.value
+            self.identity.number_format.value
         }
     }
 

@@ -36,7 +36,7 @@ pub(crate) fn settle(mechanism: &mut Mechanism<'_>, text: &str) -> bool {
         let before = given(mechanism, first).inverse() * given(mechanism, second);
         let after = closed(first).inverse() * closed(second);
         let axis = given(mechanism, first).inverse() * spring.axis;
-        let change = twist(&(after * before.inverse()), &axis);
+        let change = torsion_angle(&(after * before.inverse()), &axis);
         let spring = &mut mechanism.torsions[number];
         spring.preload -= spring.stiffness * change;
     }
@@ -44,7 +44,7 @@ pub(crate) fn settle(mechanism: &mut Mechanism<'_>, text: &str) -> bool {
 }
 
 /// \[rad\] the rotation about an axis, within ±π.
-fn twist(turn: &UnitQuaternion<f64>, axis: &Vector3<f64>) -> f64 {
+fn torsion_angle(turn: &UnitQuaternion<f64>, axis: &Vector3<f64>) -> f64 {
     let angle = 2.0 * turn.imag().dot(axis).atan2(turn.w);
     if angle > std::f64::consts::PI {
         angle - std::f64::consts::TAU

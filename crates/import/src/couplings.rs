@@ -14,7 +14,7 @@ use crate::settings::Settings;
 pub(crate) const SETTLING: f64 = 1e-3;
 
 /// Maximum number of joints of a coupling.
-const MOST: usize = 3;
+const MAX: usize = 3;
 
 /// A joint's coordinate with its factor in a sum.
 struct Term<'m> {
@@ -139,7 +139,7 @@ pub(crate) fn tendon(
             terms.push(term);
         }
     }
-    if !(1..=MOST).contains(&terms.len()) {
+    if !(1..=MAX).contains(&terms.len()) {
         return Ok(Some("only couplings of one to three joints are supported"));
     }
     if stiffness_of_spring < 0.0 || damping < 0.0 {

@@ -57,7 +57,7 @@ impl<P: Geometry<Real: Number>, const DELAY: usize> Encoder<P, DELAY> {
             every: Every::new(parameters.every),
             sensor: None,
             per_unit: P::Real::from_f64(0.0),
-            link: Link::Loose,
+            link: Link::Approximate,
             counted: 0,
         }
     }

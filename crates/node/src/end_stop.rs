@@ -41,7 +41,15 @@ impl<P: Geometry<Real: Number>> EndStop<P> {
     pub fn new(probe: Probe<P>, side: Side, threshold: f64, hysteresis: f64) -> Self {
         let zero = P::Real::from_f64(0.0);
         let bounds = [threshold, hysteresis];
-        Self { probe, side, bounds, closes: zero, opens: zero, link: Link::Loose, closed: false }
+        Self {
+            probe,
+            side,
+            bounds,
+            closes: zero,
+            opens: zero,
+            link: Link::Approximate,
+            closed: false,
+        }
     }
 }
 

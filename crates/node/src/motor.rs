@@ -118,7 +118,7 @@ impl<P: Geometry<Real: Number>> Motor<P> {
             parameters,
             speed: None,
             constants: None,
-            link: Link::Loose,
+            link: Link::Approximate,
             current: P::Real::ZERO,
             output: P::Real::ZERO,
             duties: [0; 2],

@@ -121,7 +121,7 @@ impl<P: Geometry<Real: Number>, const DELAY: usize> Mpu6000<P, DELAY> {
             per_tick: zero,
             sensitive: [zero; 2],
             temperature: 0,
-            link: Link::Loose,
+            link: Link::Approximate,
             registers: [0; 128],
             pointer: 0,
             phase: Phase::Address,
@@ -212,9 +212,9 @@ impl<P: Geometry<Real: Number>, const DELAY: usize> Mpu6000<P, DELAY> {
     }
 
     /// Stores a sample in the registers.
-    fn sample(&mut self, truth: [P::Real; 6]) {
+    fn sample(&mut self, actual: [P::Real; 6]) {
         let Some(sensors) = &mut self.sensors else { return };
-        let mut shown = truth;
+        let mut shown = actual;
         for (value, sensor) in shown.iter_mut().zip(sensors) {
             *value = sensor.sample(*value);
         }

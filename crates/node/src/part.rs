@@ -138,7 +138,7 @@ pub fn parameter<R: Number>(
 pub enum Link {
     /// No node steps it.
     #[default]
-    Loose,
+    Approximate,
     /// A node steps it.
     Wired,
     /// The node is stopped.
@@ -151,7 +151,7 @@ impl Link {
     /// # Errors
     /// [`Problem::Twice`] if it is already connected.
     pub fn wire(&mut self, name: &'static str) -> Result<(), WiringError> {
-        if *self != Link::Loose {
+        if *self != Link::Approximate {
             return Err(WiringError { name, problem: Problem::Twice });
         }
         *self = Link::Wired;
@@ -160,7 +160,7 @@ impl Link {
 
     /// The node is stopped or dropped.
     pub fn stop(&mut self, fault: Fault) {
-        *self = if fault == Fault::NotWired { Link::Loose } else { Link::Stopped(fault) };
+        *self = if fault == Fault::NotWired { Link::Approximate } else { Link::Stopped(fault) };
     }
 
     /// The check at the start of a driver's call.
@@ -171,7 +171,7 @@ impl Link {
     pub fn check(&self) -> Result<(), Fault> {
         match *self {
             Link::Wired => Ok(()),
-            Link::Loose => Err(Fault::NotWired),
+            Link::Approximate => Err(Fault::NotWired),
             Link::Stopped(fault) => Err(fault),
         }
     }
@@ -192,7 +192,7 @@ pub trait Linked {
 pub fn fix<C: Shared<Part: Linked>>(cell: &C) -> Result<(), WiringError> {
     let seen = cell.with(|part| (part.name(), part.link()));
     match seen {
-        Ok((name, Link::Loose)) => Err(WiringError { name, problem: Problem::NoNode }),
+        Ok((name, Link::Approximate)) => Err(WiringError { name, problem: Problem::NoNode }),
         Ok(_) => Ok(()),
         Err(_) => Err(WiringError { name: "a part", problem: Problem::Busy }),
     }

@@ -115,8 +115,8 @@ impl<R: Number, const DELAY: usize> Sensor<R, DELAY> {
 
     /// The output for the present exact value. Before `DELAY` samples have been taken it is the first one.
     #[inline]
-    pub fn sample(&mut self, truth: R) -> R {
-        let shown = self.show(truth);
+    pub fn sample(&mut self, actual: R) -> R {
+        let shown = self.show(actual);
         if DELAY == 0 {
             return shown;
         }
@@ -132,8 +132,8 @@ impl<R: Number, const DELAY: usize> Sensor<R, DELAY> {
 
     /// The present sample without its delay.
     #[inline]
-    fn show(&mut self, truth: R) -> R {
-        let mut value = truth + self.bias;
+    fn show(&mut self, actual: R) -> R {
+        let mut value = actual + self.bias;
         if self.walk != R::ZERO {
             self.wandered = self.wandered + self.walk * self.walks.normal::<R>();
             value = value + self.wandered;

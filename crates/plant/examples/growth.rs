@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use dbd_kernel::State;
 use dbd_kernel::frequency;
-use dbd_plant::judge::Judge;
+use dbd_plant::monitor::Monitor;
 use dbd_plant::{Method, plant};
 use dbd_scene::Scene;
 
@@ -55,8 +55,8 @@ fn run(way: &str, links: usize) -> Result<usize, String> {
         })),
         "run" => Ok(counted_work(&|| {
             let Ok(plant) = plant(&scene, &Method::default(), STEP) else { return 0 };
-            let mut judge = Judge::new(&scene, plant.as_ref());
-            usize::from(judge.judge(&plant.state()).is_ok())
+            let mut monitor = Monitor::new(&scene, plant.as_ref());
+            usize::from(monitor.monitor(&plant.state()).is_ok())
         })),
         _ => Err(format!("there is no way `{way}`")),
     }

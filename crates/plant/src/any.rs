@@ -12,7 +12,7 @@ use dbd_kernel::{BodyState, Energy, F64, State, Status};
 use dbd_scene::SceneModel;
 
 use crate::method::Method;
-use crate::numerals::Numerals;
+use crate::number_format::NumberFormat;
 
 /// A scene's model, stepped by a method.
 ///
@@ -93,7 +93,7 @@ pub trait AnyPlant: Send {
     fn step_size(&self) -> f64;
 
     /// Number format of its state.
-    fn numerals(&self) -> Numerals;
+    fn number_format(&self) -> NumberFormat;
 
     /// The method.
     fn method(&self) -> &Method;

@@ -135,9 +135,9 @@ impl Budget {
             }
         };
         for reach in &self.reaches {
-            let stretch = ROUNDINGS * self.unit * reach.size(&self.distances);
-            let force = reach.stiffness * stretch;
-            stretched += 0.5 * force * stretch;
+            let deformation = ROUNDINGS * self.unit * reach.size(&self.distances);
+            let force = reach.stiffness * deformation;
+            stretched += 0.5 * force * deformation;
             push(reach.bodies, force, reach.arms.map(|arm| force * arm));
         }
         for spring in &model.torsions {
@@ -236,9 +236,9 @@ impl Budget {
                 continue;
             }
             let extension = |seen: &Seen| seen.extensions.get(i).copied().unwrap_or(0.0);
-            let stretch = extension(&self.before).max(extension(now)) + way;
+            let deformation = extension(&self.before).max(extension(now)) + way;
             let rate = if span > 0.0 { way / span } else { 0.0 };
-            work += (reach.stiffness * stretch + reach.damping * rate) * way;
+            work += (reach.stiffness * deformation + reach.damping * rate) * way;
         }
         work
     }
@@ -247,7 +247,7 @@ impl Budget {
 impl Reach {
     fn of(model: &SceneModel<F64>, group: &Group) -> Self {
         let points = usize::from(group.point)..usize::from(group.point) + group.points();
-        let (ones, others) = model.points[points].split_at(usize::from(group.stars));
+        let (ones, others) = model.points[points].split_at(usize::from(group.triples));
         let furthest =
             |points: &[Vec3<f64>]| points.iter().copied().map(length).fold(0.0, f64::max);
         let rows = usize::from(group.element)..usize::from(group.element) + group.elements();

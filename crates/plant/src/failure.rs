@@ -13,7 +13,7 @@ use dbd_scene::Scene;
 use miette::Diagnostic;
 
 use crate::digits::significant;
-use crate::judge::{Judge, Trouble};
+use crate::monitor::{Monitor, RunFailure};
 use crate::plan::{Request, StepRequest, plan};
 use crate::time::display;
 use crate::{Frequencies, Method, Plan, plant};
@@ -66,22 +66,22 @@ impl FailedRun {
         run: &Plan,
         every: Option<f64>,
         failed: u64,
-        trouble: Trouble,
+        run_failure: RunFailure,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Self {
         let budget = LEAST_BUDGET.max(cost(scene, method, failed));
         let search = Search { scene, method, budget, spent: 0.0, progress };
         let remedy = search.remedy(run, every);
         let cause = cause(scene, method, run.step, &remedy);
-        Self { cause, remedy, ..Self::untried(scene, run, failed, trouble) }
+        Self { cause, remedy, ..Self::untried(scene, run, failed, run_failure) }
     }
 
     /// Describes the failure without searching for a step, which would require further runs.
     #[must_use]
-    pub fn untried(scene: &Scene, run: &Plan, failed: u64, trouble: Trouble) -> Self {
+    pub fn untried(scene: &Scene, run: &Plan, failed: u64, run_failure: RunFailure) -> Self {
         Self {
             cause: None,
-            what: describe(scene, trouble),
+            what: describe(scene, run_failure),
             step: failed,
             steps: run.steps,
             step_size: run.step,
@@ -135,19 +135,19 @@ impl Diagnostic for FailedRun {
     }
 }
 
-fn describe(scene: &Scene, trouble: Trouble) -> String {
-    match trouble {
-        Trouble::Step(cause) => dbd_scene::fault(scene, &cause),
-        Trouble::Growth { growth, body } => {
+fn describe(scene: &Scene, run_failure: RunFailure) -> String {
+    match run_failure {
+        RunFailure::Step(cause) => dbd_scene::fault(scene, &cause),
+        RunFailure::Growth { growth, body } => {
             let (growth, body) = (significant(growth, 2), scene.body_name(body));
             format!("the energy balance is off by {growth} J (fastest body `{body}`)")
         }
-        Trouble::Torn { joint, extension } => {
+        RunFailure::Torn { joint, extension } => {
             let joint = scene.joints.get(joint).map(|joint| joint.name.clone()).unwrap_or_default();
             let extension = significant(extension, 2);
             format!("joint `{joint}` is stretched by {extension} m")
         }
-        Trouble::Energy { body } => {
+        RunFailure::Energy { body } => {
             format!("the energy of body `{}` is not finite", scene.body_name(body))
         }
     }
@@ -231,10 +231,10 @@ impl Search<'_> {
     /// Whether a run completes, checked at the same steps as in `run`.
     fn comes_to_its_end(&mut self, run: &Plan) -> bool {
         let Ok(mut plant) = plant(self.scene, self.method, run.step) else { return false };
-        let mut judge = Judge::new(self.scene, plant.as_ref());
+        let mut monitor = Monitor::new(self.scene, plant.as_ref());
         let (mut done, mut sample) = (0, 0);
         loop {
-            if judge.judge(&plant.state()).is_err() {
+            if monitor.monitor(&plant.state()).is_err() {
                 return false;
             }
             if done == run.steps {

@@ -7,14 +7,14 @@
 //! - [`plan`]: a run in whole numbers.
 //! - [`names`]: scheme, damping, precision and orientation by name.
 //! - [`method`]: their combination.
-//! - [`numerals`]: number formats of the precisions.
+//! - [`number_format`]: number formats of the precisions.
 //! - [`readings`]: sensor values in double precision.
 //! - [`frequencies`]: highest frequency of a scene, and the advised step.
 //! - [`any`]: interface of a plant, independent of its method.
 //! - `budget`: upper bound of the energy of a run.
 //! - `refusal`: errors when creating a plant.
 //! - [`plant`](mod@plant): plant of any method, with the kernel's types.
-//! - [`judge`]: energy and joint extensions of a state, and whether a run can continue.
+//! - [`monitor`]: energy and joint extensions of a state, and whether a run can continue.
 //! - [`failure`]: failed runs: position, cause, and a step that works.
 //! - [`rounding`]: rounding losses of slow motion in single precision.
 //! - [`instance`]: a scene as a component of another tool, with named inputs and outputs.
@@ -50,10 +50,10 @@ pub mod digits;
 pub mod failure;
 pub mod frequencies;
 pub mod instance;
-pub mod judge;
 pub mod method;
+pub mod monitor;
 pub mod names;
-pub mod numerals;
+pub mod number_format;
 pub mod plan;
 pub mod plant;
 pub mod readings;
@@ -64,7 +64,7 @@ pub mod time;
 pub use any::AnyPlant;
 pub use failure::FailedRun;
 pub use frequencies::Frequencies;
-pub use method::{MOST_RHO, Method, MethodError};
+pub use method::{MAX_RHO, Method, MethodError};
 pub use names::{DampingName, Named, OrientationName, PrecisionName, SchemeName};
 pub use plan::{Plan, PlanError};
 pub use plant::{PlantError, plant, plant_of_model};

@@ -19,13 +19,13 @@ const SAMPLES: u64 = 500;
 const LOOKS: u64 = 1000;
 
 /// Maximum number of steps between two checks, so that progress is visible.
-const MOST_STEPS_UNSEEN: u64 = 1024;
+const MAX_STEPS_UNSEEN: u64 = 1024;
 
 /// Maximum number of steps: at 100 ns each they take longer than a day.
-pub const MOST_STEPS: f64 = 1e12;
+pub const MAX_STEPS: f64 = 1e12;
 
 /// More samples than this are refused: a trace of several gigabytes.
-pub const MOST_SAMPLES: u64 = 10_000_000;
+pub const MAX_SAMPLES: u64 = 10_000_000;
 
 /// The requested step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +71,7 @@ impl Plan {
     /// enough that progress is visible.
     #[must_use]
     pub fn unseen(&self) -> u64 {
-        (self.steps / LOOKS).clamp(1, MOST_STEPS_UNSEEN)
+        (self.steps / LOOKS).clamp(1, MAX_STEPS_UNSEEN)
     }
 
     /// The number of samples, t = 0 included.
@@ -127,8 +127,8 @@ pub enum PlanError {
         /// \[s\] the sampling interval.
         every: f64,
     },
-    /// More than [`MOST_STEPS`].
-    #[error("{} of {} exceed the maximum of {MOST_STEPS:e}", steps_text(*steps), display(*step))]
+    /// More than [`MAX_STEPS`].
+    #[error("{} of {} exceed the maximum of {MAX_STEPS:e}", steps_text(*steps), display(*step))]
     #[diagnostic(help("{}", fewer_steps(*duration)))]
     Steps {
         /// How many.
@@ -138,8 +138,8 @@ pub enum PlanError {
         /// \[s\] the duration.
         duration: f64,
     },
-    /// More than [`MOST_SAMPLES`].
-    #[error("{} samples exceed the maximum of {MOST_SAMPLES}", count(*samples))]
+    /// More than [`MAX_SAMPLES`].
+    #[error("{} samples exceed the maximum of {MAX_SAMPLES}", count(*samples))]
     #[diagnostic(help("use a longer sampling interval, for example --every {}", display(*every)))]
     Samples {
         /// Their number, a whole one.
@@ -208,7 +208,7 @@ pub fn plan(request: &Request) -> Result<Plan, PlanError> {
         return Err(PlanError::Every { duration, every });
     }
     // No step fits such an interval, and its count may overflow.
-    if let Some(samples) = every.map(|every| duration / every).filter(|many| *many > MOST_STEPS) {
+    if let Some(samples) = every.map(|every| duration / every).filter(|many| *many > MAX_STEPS) {
         return Err(too_many_samples(samples, duration, request.step));
     }
     let span = Span::new(duration, every);
@@ -235,7 +235,7 @@ pub fn plan(request: &Request) -> Result<Plan, PlanError> {
         None => stride_for(steps),
     };
     let plan = Plan { step, duration, steps, stride };
-    if plan.samples() > MOST_SAMPLES {
+    if plan.samples() > MAX_SAMPLES {
         let step = StepRequest::Given(plan.step);
         return Err(too_many_samples(plan.samples() as f64, duration, step));
     }
@@ -245,7 +245,7 @@ pub fn plan(request: &Request) -> Result<Plan, PlanError> {
 /// With an interval of about a thousand samples, of whole steps where the step is given.
 fn too_many_samples(samples: f64, duration: f64, step: StepRequest) -> PlanError {
     let every = match step {
-        StepRequest::Given(step) if duration / step <= MOST_STEPS => {
+        StepRequest::Given(step) if duration / step <= MAX_STEPS => {
             let stride = (duration / step) as u64 / 1000;
             rounded(stride.max(1) as f64 * step, 12)
         }
@@ -256,7 +256,7 @@ fn too_many_samples(samples: f64, duration: f64, step: StepRequest) -> PlanError
 
 fn check_steps(duration: f64, step: f64) -> Result<(), PlanError> {
     let steps = duration / step;
-    if steps <= MOST_STEPS { Ok(()) } else { Err(PlanError::Steps { steps, step, duration }) }
+    if steps <= MAX_STEPS { Ok(()) } else { Err(PlanError::Steps { steps, step, duration }) }
 }
 
 /// The multiples of `step` on either side of `time`, without the digits of rounding.

@@ -6,15 +6,15 @@
 
 use std::sync::Arc;
 
+#[cfg(feature = "comparison")]
+use dbd_kernel::approximate::Approximate32;
 use dbd_kernel::energy::energy;
 #[cfg(feature = "comparison")]
 use dbd_kernel::euler::{EulerF32, EulerF64};
 use dbd_kernel::frequency::bound;
 use dbd_kernel::index::InputIndex;
-use dbd_kernel::keep::Keep as _;
+use dbd_kernel::keep::Storage as _;
 use dbd_kernel::laws::Laws as _;
-#[cfg(feature = "comparison")]
-use dbd_kernel::loose::Loose32;
 use dbd_kernel::plant::{self as kernel, InputError, Plant, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::schedule::Signal;
@@ -29,7 +29,7 @@ use dbd_scene::{Misfit, Planar, Scene, SceneModel, widen};
 use crate::any::AnyPlant;
 use crate::method::{Method, SchemeChoice};
 use crate::names::{Named, OrientationName, PrecisionName};
-use crate::numerals::Numerals;
+use crate::number_format::NumberFormat;
 use crate::readings::widened;
 pub use crate::refusal::PlantError;
 
@@ -61,7 +61,7 @@ macro_rules! with_precision {
             }
             #[cfg(feature = "comparison")]
             (PrecisionName::F32Micromath, OrientationName::Quaternion) => {
-                type $P = Loose32;
+                type $P = Approximate32;
                 $body
             }
             (_, _) => Err($method.not_built().into()),
@@ -240,7 +240,7 @@ impl New<'_> {
         S: Scheme,
         Typed<P, S>: AnyPlant + 'static,
     {
-        let (model, shown) = self.converted::<P>(S::Keeps::MATRIX)?;
+        let (model, shown) = self.converted::<P>(S::Storage::MATRIX)?;
         let plant = Plant::new(model, scheme, self.step);
         let plant = plant.map_err(|error| self.refusal::<P>(error))?;
         Ok(Box::new(Typed { plant, shown }))
@@ -450,8 +450,8 @@ where
         self.plant.step_size()
     }
 
-    fn numerals(&self) -> Numerals {
-        Numerals::of::<P>()
+    fn number_format(&self) -> NumberFormat {
+        NumberFormat::of::<P>()
     }
 
     fn method(&self) -> &Method {

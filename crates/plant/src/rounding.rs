@@ -18,7 +18,7 @@ const COUNTED: f64 = 1024.0;
 const LOST: f64 = 1e-3;
 
 /// \[1\] Minimum loss to be listed, in last digits: joints correct smaller losses.
-const TOLD: f64 = 1024.0;
+const REPORTED: f64 = 1024.0;
 
 /// Rounding loss of a body's motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,7 +115,7 @@ impl RoundingWatch {
         for (body, sums) in self.sums.iter().enumerate() {
             for (sums, turn) in sums.iter().zip([false, true]) {
                 let Sums { lost, moved, time, last_digit, .. } = *sums;
-                if lost > (LOST * moved).max(TOLD * last_digit) && moved > 0.0 {
+                if lost > (LOST * moved).max(REPORTED * last_digit) && moved > 0.0 {
                     losses.push(Loss { body, turn, lost, moved, time });
                 }
             }

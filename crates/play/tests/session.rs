@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use dbd_plant::instance::{Blueprint, Instance, Settings};
-use dbd_plant::judge::Judge;
+use dbd_plant::monitor::Monitor;
 use dbd_plant::{FailedRun, plant};
 use dbd_play::refused::Refused;
-use dbd_play::session::{Change, Grab, MOST_TEXT, STATUS};
+use dbd_play::session::{Change, Grab, MAX_TEXT, STATUS};
 use dbd_play::{Desk, Session};
 use serde_json::{Value, json};
 
@@ -214,16 +214,17 @@ fn a_run_that_fails_says_why_as_run_does() {
     let plan = dbd_plant::plan::plan(&request).unwrap();
     let method = *session.instance().plant().method();
     let mut plain = plant(scene, &method, plan.step).unwrap();
-    let mut judge = Judge::new(scene, plain.as_ref());
-    let trouble = loop {
-        if let Err(trouble) = judge.judge(&plain.state()) {
-            break trouble;
+    let mut monitor = Monitor::new(scene, plain.as_ref());
+    let run_failure = loop {
+        if let Err(run_failure) = monitor.monitor(&plain.state()) {
+            break run_failure;
         }
         if let dbd_kernel::Status::Failed(failure) = plain.advance(plan.unseen()) {
-            break dbd_plant::judge::Trouble::Step(failure.cause);
+            break dbd_plant::monitor::RunFailure::Step(failure.cause);
         }
     };
-    let run = FailedRun::new(scene, &method, &plan, None, plain.steps(), trouble, &mut |_, _| ());
+    let run =
+        FailedRun::new(scene, &method, &plan, None, plain.steps(), run_failure, &mut |_, _| ());
     assert_eq!((text, help), (run.to_string(), run.advice()));
     assert!(run.to_string().starts_with("step too large"), "{run}");
     session.reset();
@@ -299,7 +300,7 @@ fn requests_are_answered_in_json_and_what_is_none_is_refused() {
     for request in ["release", "mark", "save", "table", "scene", "diagnose", "reset"] {
         assert!(ask(json!({ "do": request })).get("error").is_none(), "{request}");
     }
-    let long = "#".repeat(MOST_TEXT + 1);
+    let long = "#".repeat(MAX_TEXT + 1);
     let answer = ask(json!({ "do": "open", "file": "long.toml", "text": long }));
     assert!(message(&answer).contains("too long for the page"));
 }

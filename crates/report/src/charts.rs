@@ -8,10 +8,10 @@ use std::collections::{BTreeSet, HashMap};
 
 use crate::picture::Mechanism;
 use dbd_plant::Plan;
-use dbd_plant::numerals::{Digits, Numerals};
+use dbd_plant::number_format::{Digits, NumberFormat};
 use dbd_scene::Scene;
 
-use crate::curves::{Curves, Drawn, Extent, MOST_POINTS};
+use crate::curves::{Curves, Drawn, Extent, MAX_POINTS};
 use crate::data::{Chart, Line, Section, Thinned};
 use crate::measure::{joint_sizes, size};
 use crate::packed::{F32s, F64s};
@@ -19,8 +19,8 @@ use crate::packed::{F32s, F64s};
 /// Values of all lines of a page: 5.4 bytes of text each.
 const ROOM: usize = 75_000;
 /// Lines of bodies, and of joints, that are drawn at most.
-const MOST_OF_BODIES: usize = 240;
-const MOST_OF_JOINTS: usize = 80;
+const MAX_OF_BODIES: usize = 240;
+const MAX_OF_JOINTS: usize = 80;
 
 /// Movement below this fraction of its quantity's scale is round-off, by the digits of forces.
 const ROUND_OFF: [f64; 2] = [1e-6, 1e-10];
@@ -160,7 +160,7 @@ impl Charts {
 
     /// The charts with the curves of their lines.
     #[must_use]
-    pub fn finish(self, curves: &Curves, numerals: Numerals) -> Finished {
+    pub fn finish(self, curves: &Curves, number_format: NumberFormat) -> Finished {
         let mut planned = self.planned;
         let first = |row: &mut usize, planned: &Planned| {
             let first = *row;
@@ -169,7 +169,7 @@ impl Charts {
         };
         let rows: Vec<usize> = planned.iter().scan(0, first).collect();
         let scales = scales(&planned, &rows, curves.extents());
-        let digits = if numerals.velocity == Digits::Single { 0 } else { 1 };
+        let digits = if number_format.velocity == Digits::Single { 0 } else { 1 };
         for ((planned, row), scale) in planned.iter_mut().zip(&rows).zip(scales) {
             let total = planned.chart.section == Section::Energy && planned.deviation;
             let share = if total { ROUND_OFF_OF_ENERGY } else { ROUND_OFF[digits] };
@@ -182,8 +182,8 @@ impl Charts {
             }
         }
         let left_out = [
-            left_out(&planned, |chart| chart.body, MOST_OF_BODIES),
-            left_out(&planned, |chart| chart.joint, MOST_OF_JOINTS),
+            left_out(&planned, |chart| chart.body, MAX_OF_BODIES),
+            left_out(&planned, |chart| chart.joint, MAX_OF_JOINTS),
         ];
         let mut charts: Vec<(Chart, usize)> = Vec::new();
         for (Planned { chart, .. }, row) in planned.into_iter().zip(rows) {
@@ -199,7 +199,7 @@ impl Charts {
             lines.map(|(at, _)| row + at).collect::<Vec<_>>()
         };
         let chosen: Vec<usize> = charts.iter().flat_map(moving).collect();
-        let points = (ROOM / chosen.len().max(1)).min(MOST_POINTS);
+        let points = (ROOM / chosen.len().max(1)).min(MAX_POINTS);
         let Drawn { times, lines } = curves.drawn(&chosen, points);
         let mut charts: Vec<Chart> = charts.into_iter().map(|(chart, _)| chart).collect();
         let places = charts.iter_mut().flat_map(|chart| &mut chart.lines);

@@ -4,11 +4,11 @@
 //! first and last time, so that no peak is lost in a long run. The first and the last sample are separate intervals.
 
 /// Points of a line at most.
-pub const MOST_POINTS: usize = 2000;
+pub const MAX_POINTS: usize = 2000;
 /// Points of a line at least, where there are as many samples.
 pub const FEWEST_POINTS: usize = 64;
 /// Maximum number of stored values of all lines.
-const MOST_VALUES: usize = 16_000_000;
+const MAX_VALUES: usize = 16_000_000;
 
 /// The lowest and the highest value of an interval, in their order; none, or twice the same.
 type Pair = [f32; 2];
@@ -90,7 +90,7 @@ impl Curves {
     /// Empty, for the given number of samples; per line whether it is stored as differences from its first value.
     #[must_use]
     pub fn new(deviations: Vec<bool>, planned: u64) -> Self {
-        let most = (MOST_VALUES / deviations.len().max(1)).clamp(FEWEST_POINTS, MOST_POINTS) as u64;
+        let most = (MAX_VALUES / deviations.len().max(1)).clamp(FEWEST_POINTS, MAX_POINTS) as u64;
         let between = planned.saturating_sub(2);
         let intervals = most / 2 - 1;
         let samples_per_interval = if planned <= most { 1 } else { between.div_ceil(intervals) };
@@ -226,8 +226,8 @@ mod tests {
         for samples in [2001, 2002, 3999, 123_457, 1_000_000] {
             let value = |i| if i == 1501 { 9.0 } else { (i % 7) as f64 * 0.1 };
             let curves = taken(samples, samples, false, value);
-            assert!(curves.pairs.len() <= MOST_POINTS / 2 + 1, "{samples}");
-            for points in [MOST_POINTS, 700, 100, 1] {
+            assert!(curves.pairs.len() <= MAX_POINTS / 2 + 1, "{samples}");
+            for points in [MAX_POINTS, 700, 100, 1] {
                 let Drawn { times, lines } = curves.drawn(&[0], points);
                 assert!(times.len() <= points.max(FEWEST_POINTS), "{samples} {points}");
                 assert_eq!(lines[0].len(), times.len());
@@ -247,7 +247,7 @@ mod tests {
     fn short_runs_keep_every_sample() {
         for samples in [1, 2, 501, 2000] {
             let curves = taken(samples, samples, true, |i| 3.0 + i as f64);
-            let Drawn { times, lines } = curves.drawn(&[0], MOST_POINTS);
+            let Drawn { times, lines } = curves.drawn(&[0], MAX_POINTS);
             assert_eq!(times, (0..samples).map(|i| i as f64).collect::<Vec<_>>());
             assert_eq!(lines[0], (0..samples).map(|i| i as f32).collect::<Vec<_>>());
             let Extent { initial, low, high } = curves.extents()[0];
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn a_run_may_end_early_or_have_no_number() {
         let curves = taken(1_000_000, 2500, false, |i| i as f64);
-        assert_eq!(curves.drawn(&[0], MOST_POINTS).times.last(), Some(&2499.0));
+        assert_eq!(curves.drawn(&[0], MAX_POINTS).times.last(), Some(&2499.0));
         assert_eq!(
             taken(10, 0, false, |_| 0.0).drawn(&[0], 100),
             Drawn { times: vec![], lines: vec![vec![]] }

@@ -13,11 +13,11 @@ use crate::packed::{F32s, F64s, I16s};
 const ROOM: usize = 400_000;
 /// Frames of a film at most, and those of a large mechanism that are kept whatever their size,
 /// within \[bytes\].
-const MOST: usize = 1200;
+const MAX: usize = 1200;
 const FEWEST: usize = 24;
-const MOST_ROOM: usize = 900_000;
+const MAX_ROOM: usize = 900_000;
 /// More springs of joints are left out of a film.
-const MOST_JOINT_SPRINGS: usize = 400;
+const MAX_JOINT_SPRINGS: usize = 400;
 
 /// Visible state of a mechanism at a sample.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -56,8 +56,8 @@ impl Spread {
             frame += words(mechanism.joint_springs.len(), 4);
         }
         let text = frame.div_ceil(3) * 4;
-        let fewest = FEWEST.min(MOST_ROOM / text);
-        Self::new(samples, (ROOM / text).max(fewest).min(MOST) as u64)
+        let fewest = FEWEST.min(MAX_ROOM / text);
+        Self::new(samples, (ROOM / text).max(fewest).min(MAX) as u64)
     }
 
     /// Whether the sample of this number, from 0 on, is kept.
@@ -77,7 +77,7 @@ impl Spread {
 /// Whether a film shows the springs that joints are made of.
 #[must_use]
 pub fn has_joint_springs(mechanism: &Mechanism) -> bool {
-    mechanism.joint_springs.len() <= MOST_JOINT_SPRINGS
+    mechanism.joint_springs.len() <= MAX_JOINT_SPRINGS
 }
 
 /// Packs frames; `None` if there are none.

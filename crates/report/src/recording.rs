@@ -4,7 +4,7 @@
 
 use crate::picture::Mechanism;
 use dbd_kernel::{Energy, F64, Quaternion, State, Vec3};
-use dbd_plant::numerals::Numerals;
+use dbd_plant::number_format::NumberFormat;
 use dbd_plant::{Method, Plan, PlantError, plant};
 use dbd_scene::{Scene, SceneModel};
 
@@ -36,7 +36,7 @@ pub struct Recording {
     mechanism: Mechanism,
     traces: Vec<Trace>,
     loading: Loading,
-    numerals: Numerals,
+    number_format: NumberFormat,
     charts: Charts,
     curves: Curves,
     spread: Spread,
@@ -81,7 +81,7 @@ impl Recording {
             spread: Spread::of(&mechanism, plan.samples()),
             turns: mechanism.bodies.iter().map(|body| Turn::new(body.orientation)).collect(),
             traces: traces(scene),
-            numerals: plant.numerals(),
+            number_format: plant.number_format(),
             mechanism,
             loading,
             charts,
@@ -171,7 +171,7 @@ impl Recording {
         self.curves.finish();
         let film = packed(&self.frames, &self.mechanism, self.traces);
         let Finished { times, thinned, charts, bodies_left_out, joints_left_out } =
-            self.charts.finish(&self.curves, self.numerals);
+            self.charts.finish(&self.curves, self.number_format);
         let mut mechanism = self.mechanism;
         if !crate::film::has_joint_springs(&mechanism) {
             mechanism.joint_springs.clear();
@@ -208,7 +208,7 @@ pub fn traces(scene: &Scene) -> Vec<Trace> {
 
 #[cfg(test)]
 mod tests {
-    use dbd_plant::judge::Judge;
+    use dbd_plant::monitor::Monitor;
     use dbd_plant::plan::{Request, StepRequest, plan};
 
     use super::*;
@@ -241,12 +241,12 @@ readout = [
         let request = Request { step, duration: scene.duration, every: Some(every) };
         let plan = plan(&request).unwrap();
         let mut plant = plant(&scene, &method, plan.step).unwrap();
-        let mut judge = Judge::new(&scene, plant.as_ref());
+        let mut monitor = Monitor::new(&scene, plant.as_ref());
         let mut recording = Recording::new(&scene, &method, &plan).unwrap();
         let mut all = Vec::new();
         for _ in 0..samples {
             let state = plant.state();
-            let energy = judge.judge(&state).ok().unwrap().energy;
+            let energy = monitor.monitor(&state).ok().unwrap().energy;
             let mut readings = Vec::new();
             for info in &scene.readouts {
                 let reading = plant.read(&info.readout).filter(|_| numbers);
@@ -257,7 +257,7 @@ readout = [
                 state: &state,
                 readings: &readings,
                 energy,
-                extensions: judge.extensions(),
+                extensions: monitor.extensions(),
             });
             all.push(readings);
             let _ = plant.advance(plan.stride);

@@ -18,9 +18,9 @@ pub(crate) fn unit(v: Vec3<f64>) -> Option<Vec3<f64>> {
 /// The vector at unit length, such that normalising it again keeps its bits.
 pub(crate) fn settled(v: Vec3<f64>) -> Option<Vec3<f64>> {
     // The second pass rarely changes anything.
-    const MOST: usize = 8;
+    const MAX: usize = 8;
     let mut found = unit(v)?;
-    for _ in 0..MOST {
+    for _ in 0..MAX {
         let next = unit(found)?;
         if next == found {
             break;

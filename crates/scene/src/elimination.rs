@@ -21,8 +21,8 @@ pub struct Elimination {
     pub pairs: Vec<[u16; 2]>,
     /// [`Plan::targets`].
     pub targets: Vec<u16>,
-    /// [`Plan::homes`].
-    pub homes: Vec<u16>,
+    /// [`Plan::slots`].
+    pub slots: Vec<u16>,
 }
 
 impl Elimination {
@@ -80,7 +80,7 @@ impl Elimination {
                 plan.targets.extend(first);
             }
         }
-        plan.homes = ends
+        plan.slots = ends
             .iter()
             .map(|&[a, b]| rows.get(&[a, b]).or(rows.get(&[b, a])).copied().unwrap_or(Plan::GROUND))
             .collect();
@@ -112,15 +112,15 @@ impl Elimination {
     /// The plan in the form of the kernel.
     #[must_use]
     pub fn plan(&self) -> Plan<'_> {
-        let Self { order, pairs, targets, homes } = self;
-        Plan { order, pairs, targets, homes }
+        let Self { order, pairs, targets, slots } = self;
+        Plan { order, pairs, targets, slots }
     }
 
     /// Number of pairs filled in by elimination.
     #[must_use]
     pub fn filled(&self) -> usize {
         self.pairs.len()
-            - self.homes.iter().filter(|home| **home != Plan::GROUND).collect::<BTreeSet<_>>().len()
+            - self.slots.iter().filter(|slot| **slot != Plan::GROUND).collect::<BTreeSet<_>>().len()
     }
 }
 
@@ -153,7 +153,7 @@ impl<H: Deref<Target: ModelOwner + Sized>> ModelOwner for Eliminated<H> {
     type PerDamper<T: Copy> = <H::Target as ModelOwner>::PerDamper<T>;
     type PerTsda<T: Copy> = <H::Target as ModelOwner>::PerTsda<T>;
     type PerPair<T: Copy> = Vec<T>;
-    type PerHome<T: Copy> = Vec<T>;
+    type PerSlot<T: Copy> = Vec<T>;
     type PerKnot = <H::Target as ModelOwner>::PerKnot;
     type PerSource = <H::Target as ModelOwner>::PerSource;
 
@@ -197,8 +197,8 @@ impl<H: Deref<Target: ModelOwner + Sized>> ModelOwner for Eliminated<H> {
         vec![value; self.plan.pairs.len()]
     }
 
-    fn per_home<T: Copy>(&self, value: T) -> Vec<T> {
-        vec![value; self.plan.homes.len()]
+    fn per_slot<T: Copy>(&self, value: T) -> Vec<T> {
+        vec![value; self.plan.slots.len()]
     }
 
     fn plan(&self) -> Plan<'_> {
@@ -226,9 +226,9 @@ mod tests {
         let plan = Elimination::new(4, &chain).unwrap();
         assert!(plan.plan().fits(4, chain.into_iter()), "{plan:?}");
         assert_eq!((plan.pairs.len(), plan.filled(), plan.targets.len()), (3, 0, 0));
-        let star = [[0, 1], [2, 0], [0, 3], [4, 0]];
-        let plan = Elimination::new(5, &star).unwrap();
-        assert!(plan.plan().fits(5, star.into_iter()), "{plan:?}");
+        let triple = [[0, 1], [2, 0], [0, 3], [4, 0]];
+        let plan = Elimination::new(5, &triple).unwrap();
+        assert!(plan.plan().fits(5, triple.into_iter()), "{plan:?}");
         assert_eq!(
             (plan.order.iter().position(|[body, _]| *body == 0), plan.filled()),
             (Some(3), 0)

@@ -2,7 +2,7 @@
 //!
 //! `cause => sentence`, the same for all programs.
 
-use dbd_kernel::status::{Cause, MOST_TURN};
+use dbd_kernel::status::{Cause, MAX_TURN};
 
 use crate::scene::Scene;
 
@@ -16,7 +16,7 @@ pub fn fault(scene: &Scene, cause: &Cause) -> String {
             format!("the state of body `{}` is not finite", name(body))
         }
         Cause::Spin { body } => {
-            format!("body `{}` turns by more than {MOST_TURN} rad in a step", name(body))
+            format!("body `{}` turns by more than {MAX_TURN} rad in a step", name(body))
         }
         Cause::Turn { body } => {
             format!("body `{}` turns farther in a step than the scheme allows", name(body))
@@ -46,7 +46,7 @@ pub fn fault(scene: &Scene, cause: &Cause) -> String {
             let law = scene.law_names.get(usize::from(law.0)).map_or("", String::as_str);
             format!("{law} is undefined: its bodies have turned by 180° across its axis")
         }
-        Cause::UndefinedTwist { spring: row } => {
+        Cause::UndefinedTorsionAngle { spring: row } => {
             let spring = spring(usize::from(row.0));
             format!(
                 "the torsion angle of {spring} is undefined: its bodies have turned by 180° across its axis"

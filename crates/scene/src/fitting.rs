@@ -10,7 +10,7 @@ pub const WHOLE: f64 = 1e-9;
 
 /// Maximum number of parts of the sampling interval to try. More would make the step unreasonably short, and
 /// eventually any number fits within 1e-9.
-const MOST_INTERVALS: u64 = 1000;
+const MAX_INTERVALS: u64 = 1000;
 
 /// Mantissas of round steps.
 const MANTISSAS: [f64; 7] = [8.0, 5.0, 4.0, 2.5, 2.0, 1.25, 1.0];
@@ -48,8 +48,7 @@ impl Span {
     #[must_use]
     pub fn new(duration: f64, every: Option<f64>) -> Option<Self> {
         let ratio = duration / every.unwrap_or(duration);
-        let intervals =
-            (1..=MOST_INTERVALS).find(|count| whole(ratio * *count as f64).is_some())?;
+        let intervals = (1..=MAX_INTERVALS).find(|count| whole(ratio * *count as f64).is_some())?;
         Some(Self { duration, every, intervals })
     }
 

@@ -2,7 +2,9 @@
 //!
 //! `scene => interactions`. The geometry is that which a law writes to a [`FieldSink`].
 
-use dbd_kernel::laws::{Field, FieldSink, Instant, Laws as _, MOST_TERMS, Row, Term, Way};
+use dbd_kernel::laws::{
+    CoordinateKind, Field, FieldSink, Instant, Laws as _, MAX_TERMS, Row, Term,
+};
 use dbd_kernel::{BodyIndex, F64, Geometry as _};
 
 use crate::facts;
@@ -94,9 +96,9 @@ fn at_start(law: &dyn Row<F64>, instant: Instant<'_, F64>) -> AtStart {
         .filter(|(_, quantity)| quantity.name == "depth")
         .map(|(place, quantity)| (law.read(place, &seen), quantity.unit))
         .next();
-    if let Some(record) = law.record(&seen) {
+    if let Some(force_pair) = law.force_pair(&seen) {
         let length = |v: dbd_kernel::Vec3<f64>| libm::sqrt(v.dot(v));
-        (start.force, start.torque) = (length(record.force), length(record.torque_b));
+        (start.force, start.torque) = (length(force_pair.force), length(force_pair.torque_b));
     }
     start
 }
@@ -124,17 +126,17 @@ impl FieldSink for Shape {
     }
     fn table(&mut self, _: &Field, _: &[[f64; 2]], _: usize) {}
     // It is drawn at its first joint.
-    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MOST_TERMS]) {
+    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MAX_TERMS]) {
         for body in terms.iter().flatten().flat_map(|term| term.bodies) {
             if !body.is_world() && !self.further.contains(&body) {
                 self.further.push(body);
             }
         }
         match &terms[0] {
-            Some(Term { way: Way::Turn(hinge), .. }) => {
+            Some(Term { way: CoordinateKind::Turn(hinge), .. }) => {
                 self.axis(field, hinge.axis.to_f64(), hinge.reference.to_f64());
             }
-            Some(Term { way: Way::Travel { points, axis }, .. }) => {
+            Some(Term { way: CoordinateKind::Travel { points, axis }, .. }) => {
                 self.points(field, points.map(|point| F64::local_to_f64(&point)));
                 self.normal(field, axis.to_f64());
             }

@@ -93,9 +93,9 @@ pub(crate) fn about(axis: [f64; 3], angle: f64) -> Quaternion<f64> {
 /// A unit quaternion whose bits do not change when it is normalised again.
 pub(crate) fn settled(q: [f64; 4]) -> [f64; 4] {
     // Nearly always the second pass changes nothing.
-    const MOST: usize = 8;
+    const MAX: usize = 8;
     let mut unit = normalised(q);
-    for _ in 0..MOST {
+    for _ in 0..MAX {
         let next = normalised(unit);
         if next == unit {
             break;

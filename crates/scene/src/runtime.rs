@@ -176,7 +176,7 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
     type PerDamper<T: Copy> = Vec<T>;
     type PerTsda<T: Copy> = Vec<T>;
     type PerPair<T: Copy> = Vec<T>;
-    type PerHome<T: Copy> = Vec<T>;
+    type PerSlot<T: Copy> = Vec<T>;
     type PerKnot = Vec<KnotStep<P::Real>>;
     type PerSource = Vec<SourceStep>;
 
@@ -235,8 +235,8 @@ impl<P: Geometry> ModelOwner for SceneModel<P> {
         vec![value; self.plan.pairs.len()]
     }
 
-    fn per_home<T: Copy>(&self, value: T) -> Vec<T> {
-        vec![value; self.plan.homes.len()]
+    fn per_slot<T: Copy>(&self, value: T) -> Vec<T> {
+        vec![value; self.plan.slots.len()]
     }
 
     fn plan(&self) -> Plan<'_> {

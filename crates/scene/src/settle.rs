@@ -10,7 +10,7 @@ use dbd_kernel::{Body, F64, Quaternion, State, Vec3, forces};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::closure::{MOST_BODIES, Pose, length};
+use crate::closure::{MAX_BODIES, Pose, length};
 use crate::error::SceneError;
 use crate::joints::{Moved, ROUNDING};
 use crate::orientation::settled;
@@ -44,7 +44,7 @@ const GROWTH: f64 = 4.0;
 #[derive(Clone, Debug, PartialEq, Error, Diagnostic)]
 pub enum Restless {
     /// Too many bodies.
-    #[error("cannot bring {bodies} bodies to rest: the limit is {MOST_BODIES}")]
+    #[error("cannot bring {bodies} bodies to rest: the limit is {MAX_BODIES}")]
     #[diagnostic(help("bring the scene to rest in parts, or give the poses"))]
     TooMany {
         /// Number of bodies.
@@ -110,7 +110,7 @@ pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, Sce
     rest(scene).map_err(|restless| match restless {
         Restless::TooMany { bodies } => {
             let problem = format!("cannot bring {bodies} bodies to rest");
-            refuse(problem, &format!("the limit is {MOST_BODIES}; give the poses instead"))
+            refuse(problem, &format!("the limit is {MAX_BODIES}; give the poses instead"))
         }
         Restless::NotHeld { body, .. } => {
             let problem = format!("finds no pose at which `{body}` is at rest");
@@ -126,7 +126,7 @@ pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, Sce
 /// Moves the bodies of a scene without velocities to equilibrium.
 fn rest(scene: &mut Scene) -> Result<Settled, Restless> {
     let model = scene.stepped();
-    if model.bodies.len() > MOST_BODIES {
+    if model.bodies.len() > MAX_BODIES {
         return Err(Restless::TooMany { bodies: model.bodies.len() });
     }
     let given: Vec<Pose> =

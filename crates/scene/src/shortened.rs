@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 
 /// Most characters of a quoted text; longer than any sensible name.
-const MOST: usize = 80;
+const MAX: usize = 80;
 
 /// A text, truncated if it is long.
 #[must_use]
 pub fn shortened(text: &str) -> Cow<'_, str> {
-    match text.char_indices().nth(MOST) {
+    match text.char_indices().nth(MAX) {
         Some((end, _)) => format!("{}…", &text[..end]).into(),
         None => text.into(),
     }
@@ -21,7 +21,7 @@ mod tests {
     #[test]
     fn a_long_text_loses_its_end() {
         assert_eq!(shortened("ö"), "ö");
-        let text = "ö".repeat(MOST);
+        let text = "ö".repeat(MAX);
         assert_eq!(shortened(&text), text);
         assert_eq!(shortened(&format!("{text}a")), format!("{text}…"));
     }

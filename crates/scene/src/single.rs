@@ -12,7 +12,7 @@ use crate::time::{display, rounded};
 pub const LAST_TURN: f64 = f32::EPSILON as f64;
 
 /// \[1\] Largest fraction of a body's motion that rounding may change, at the velocity of t = 0, without a warning.
-const TOLD: f64 = 0.1;
+const REPORTED: f64 = 0.1;
 
 /// \[m\] last digit of a position in single precision, for its largest coordinate.
 #[must_use]
@@ -36,7 +36,7 @@ pub fn slow_start(scene: &Scene, step: f64, whose: &str) -> Option<String> {
     });
     let moving = speeds.filter(|(_, speed, ..)| *speed > 0.0);
     let (name, speed, digit, unit, share) = moving.max_by(|a, b| a.4.total_cmp(&b.4))?;
-    (share > TOLD).then(|| {
+    (share > REPORTED).then(|| {
         format!(
             "{whose} of {} is too short for single precision: body `{name}` starts at {} {unit}/s, \
              but its {} is resolved to {} {unit}, so {} of its motion may be lost at this \

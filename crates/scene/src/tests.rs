@@ -74,7 +74,7 @@ fn groups_follow_each_other_in_the_order_of_their_kinds() {
     let lay: Vec<_> = model
         .groups
         .iter()
-        .map(|g| (g.stars, g.arms, g.shared, g.point, g.element, g.damper.row()))
+        .map(|g| (g.triples, g.arms, g.shared, g.point, g.element, g.damper.row()))
         .collect();
     assert_eq!(
         lay,

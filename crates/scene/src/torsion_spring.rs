@@ -65,9 +65,9 @@ mod tests {
         assert_eq!((second.stiffness, second.preload), (6.0, 0.0));
         let hand = Some(&states[1].orientation);
         for (spring, a) in [(first, Some(&states[0].orientation)), (second, None)] {
-            let twist =
-                spring.twist(&spring.since_start(Quaternion::relative(a, hand)).unwrap(), 0);
-            assert!(twist.angle.abs() < 1e-15, "{:e}", twist.angle);
+            let torsion_angle = spring
+                .torsion_angle(&spring.since_start(Quaternion::relative(a, hand)).unwrap(), 0);
+            assert!(torsion_angle.angle.abs() < 1e-15, "{:e}", torsion_angle.angle);
             assert_eq!(spring.damper.row(), None);
         }
     }

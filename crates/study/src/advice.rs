@@ -208,8 +208,8 @@ pub(crate) mod tests {
         let said = sentences(&points, Machine::Target, 1e-5);
         assert_eq!(
             said.last().unwrap(),
-            "for 1e-5 m choose, of the 3 methods counted, pefrl, f64, step 100us (20 million \
-             instructions per simulated second); the paper's scheme in f32 does not reach this accuracy"
+            "for 1e-5 m choose (of 3 methods with counted instructions) pefrl, f64, step 100us (20 \
+             million instructions per simulated second); the paper's scheme in f32 does not reach this accuracy"
         );
         assert!(said.iter().all(|sentence| !sentence.contains("stable")));
         let alone = [points[4].clone()];
@@ -229,10 +229,10 @@ pub(crate) mod tests {
     fn loose_arithmetic_is_not_advised_and_zeros_are_called_so() {
         let mut points = ladder();
         points.truncate(3);
-        let mut loose = points[0].clone();
-        loose.stepper.precision = "f32-micromath".into();
-        (loose.error, loose.host_seconds_least) = (Some(0.0), 1e-9);
-        points.push(loose);
+        let mut approximate = points[0].clone();
+        approximate.stepper.precision = "f32-micromath".into();
+        (approximate.error, approximate.host_seconds_least) = (Some(0.0), 1e-9);
+        points.push(approximate);
         assert!(sentences(&points, Machine::Host, 0.0).iter().all(|s| !s.contains("micromath")));
         assert_eq!(remark(&points, Machine::Host), None);
         points.iter_mut().for_each(|point| point.error = Some(0.0));

@@ -26,7 +26,7 @@ const SAMPLES: u64 = 50;
 /// \[s\] a step longer than this is not looked at.
 const LONGEST: f64 = 5e-3;
 /// Steps of one run, times bodies, beyond which the search ends.
-const MOST: f64 = 4e6;
+const MAX: f64 = 4e6;
 /// \[m\] smallest valid tolerance.
 const LEAST: f64 = 1e-10;
 /// Steps of the ladder of stiffness.
@@ -137,7 +137,7 @@ impl Frame {
 
     /// The states at the samples; `None` where the run fails or is too long.
     fn motion(&self, scene: &Scene, scheme: SchemeName, steps: u64) -> Option<Vec<State>> {
-        if self.work(scene, steps) > MOST {
+        if self.work(scene, steps) > MAX {
             return None;
         }
         let method = Method::new(scheme, None, PrecisionName::F64).ok()?;
@@ -158,7 +158,7 @@ impl Frame {
         let (mut steps, mut best) = (least, f64::INFINITY);
         let mut coarse = self.motion(scene, scheme, steps);
         loop {
-            if self.work(scene, 2 * steps) > MOST {
+            if self.work(scene, 2 * steps) > MAX {
                 return Err(match best.is_finite() {
                     true => format!("halving the step still changes the motion by {best:.1e} m"),
                     false => "no run completes".into(),
@@ -236,7 +236,7 @@ pub fn ideal(
     };
     let run = run.map_err(refuse)?;
     let (stiff, mut set, stiffness) = present;
-    let truth = (&stiff, &run.states[..]);
+    let reference_solution = (&stiff, &run.states[..]);
     // The cheapest first: in the plane, of few elements.
     let mut models = vec![(AS_IT_IS, stiff.clone())];
     models.extend(variants(&stiff).into_iter().map(|variant| (variant.name, variant.scene)));
@@ -247,7 +247,7 @@ pub fn ideal(
         let by_model = match name == AS_IT_IS {
             true => 0.0,
             false => match frame.motion(&model, SchemeName::GeneralizedAlpha3, 2 * run.steps) {
-                Some(states) => distance(truth, (&model, &states)),
+                Some(states) => distance(reference_solution, (&model, &states)),
                 None => continue,
             },
         };
@@ -257,7 +257,8 @@ pub fn ideal(
         let mut found = (SchemeName::GeneralizedAlpha3, run.steps, run.off);
         for steps in [run.steps, 2 * run.steps] {
             let states = frame.motion(&stiff, SchemeName::GeneralizedAlpha, steps);
-            let off = states.map_or(f64::INFINITY, |states| distance(truth, (&stiff, &states)));
+            let off = states
+                .map_or(f64::INFINITY, |states| distance(reference_solution, (&stiff, &states)));
             if off <= frame.third {
                 found = (SchemeName::GeneralizedAlpha, steps, off);
                 break;

@@ -7,7 +7,7 @@ use crate::reference::implicit::Implicit;
 use crate::reference::metric::Metric;
 use crate::reference::naive::Naive;
 use crate::reference::{Mechanism, State};
-use dbd_plant::judge::{Judge, conserves_energy};
+use dbd_plant::monitor::{Monitor, conserves_energy};
 use dbd_plant::{Method, plant};
 use dbd_scene::Scene;
 
@@ -44,7 +44,7 @@ pub struct Comparison<'c> {
     /// The times that are compared.
     pub grid: Grid,
     /// Its true state at each, t = 0 first.
-    pub truth: &'c [State],
+    pub reference_solution: &'c [State],
     /// Whether nothing changes its energy.
     pub conservative: bool,
     metric: Metric,
@@ -55,11 +55,19 @@ pub struct Comparison<'c> {
 impl<'c> Comparison<'c> {
     /// Comparisons of a scene with its reference solution.
     #[must_use]
-    pub fn new(scene: &'c Scene, grid: Grid, truth: &'c [State]) -> Self {
+    pub fn new(scene: &'c Scene, grid: Grid, reference_solution: &'c [State]) -> Self {
         let metric = Metric::of(&Mechanism::of(scene).0);
-        let ways = truth.iter().map(|state| metric.distance(&truth[0], state));
+        let ways =
+            reference_solution.iter().map(|state| metric.distance(&reference_solution[0], state));
         let travel = ways.fold(LEAST_TRAVEL, f64::max);
-        Self { scene, grid, truth, conservative: conserves_energy(scene), metric, travel }
+        Self {
+            scene,
+            grid,
+            reference_solution,
+            conservative: conserves_energy(scene),
+            metric,
+            travel,
+        }
     }
 
     /// Error of a method with the given number of steps per interval of the reference solution.
@@ -75,8 +83,8 @@ impl<'c> Comparison<'c> {
             Way::LinearlyImplicitEuler => {
                 let (mechanism, start) = Mechanism::of(self.scene);
                 let mut implicit = Implicit::new(&mechanism, start, step);
-                self.judge(|samples| {
-                    for sample in 0..self.truth.len() {
+                self.monitor(|samples| {
+                    for sample in 0..self.reference_solution.len() {
                         if sample > 0 && !(0..steps).all(|_| implicit_step(&mut implicit)) {
                             return;
                         }
@@ -89,14 +97,14 @@ impl<'c> Comparison<'c> {
 
     fn kernel(&self, method: &Method, step: f64, steps: u64) -> Accuracy {
         let Ok(mut plant) = plant(self.scene, method, step) else { return UNSTABLE };
-        let mut judge = Judge::new(self.scene, plant.as_ref());
+        let mut monitor = Monitor::new(self.scene, plant.as_ref());
         let (mut samples, mut squares, mut peak, mut initial) = (Vec::new(), 0.0, 0.0_f64, None);
-        for sample in 0..self.truth.len() {
+        for sample in 0..self.reference_solution.len() {
             if sample > 0 && !plant.advance(steps).is_running() {
                 return UNSTABLE;
             }
             let state = plant.state();
-            let Ok(verdict) = judge.judge(&state) else { return UNSTABLE };
+            let Ok(verdict) = monitor.monitor(&state) else { return UNSTABLE };
             let total = verdict.energy.total();
             let error: f64 = total - *initial.get_or_insert(total);
             squares += error * error;
@@ -109,8 +117,8 @@ impl<'c> Comparison<'c> {
     fn naive(&self, step: f64, steps: u64, advance: impl Fn(&mut Naive<'_>)) -> Accuracy {
         let (mechanism, start) = Mechanism::of(self.scene);
         let mut naive = Naive::new(&mechanism, start, step);
-        self.judge(|samples| {
-            for sample in 0..self.truth.len() {
+        self.monitor(|samples| {
+            for sample in 0..self.reference_solution.len() {
                 if sample > 0 {
                     (0..steps).for_each(|_| advance(&mut naive));
                 }
@@ -123,8 +131,8 @@ impl<'c> Comparison<'c> {
         })
     }
 
-    fn judge(&self, run: impl FnOnce(&mut Vec<State>)) -> Accuracy {
-        let mut samples = Vec::with_capacity(self.truth.len());
+    fn monitor(&self, run: impl FnOnce(&mut Vec<State>)) -> Accuracy {
+        let mut samples = Vec::with_capacity(self.reference_solution.len());
         run(&mut samples);
         self.judged(&samples, None)
     }
@@ -132,7 +140,7 @@ impl<'c> Comparison<'c> {
     /// The verdict on a run's samples, t = 0 first, with the energy error's square sum and peak if meaningful.
     fn judged(&self, samples: &[State], energy: Option<(f64, f64)>) -> Accuracy {
         let after = samples.get(1..).unwrap_or_default();
-        let error = self.metric.error(&self.truth[1..], after);
+        let error = self.metric.error(&self.reference_solution[1..], after);
         if !error.is_finite() {
             return UNSTABLE;
         }
@@ -175,9 +183,9 @@ mod tests {
         let grid = Grid::new(1e-3, 0.05);
         // The body rests; the reference solution differs by a millimetre from the first sample on.
         let start = Mechanism::of(&scene).1;
-        let mut truth = vec![start; grid.times().len()];
-        truth[1..].iter_mut().for_each(|state| state.bodies[0].position.x = 1e-3);
-        let comparison = Comparison::new(&scene, grid, &truth);
+        let mut reference_solution = vec![start; grid.times().len()];
+        reference_solution[1..].iter_mut().for_each(|state| state.bodies[0].position.x = 1e-3);
+        let comparison = Comparison::new(&scene, grid, &reference_solution);
         for way in [Way::Kernel(Method::default()), Way::NaiveLeapfrog] {
             let accuracy = comparison.accuracy(&way, 2);
             assert!((accuracy.error.unwrap() / 1e-3 - 1.0).abs() < 1e-12, "{accuracy:?}");

@@ -24,7 +24,7 @@ mod matrices;
 mod shares;
 mod table;
 
-pub use error::{MOST_BODIES, ModesError};
+pub use error::{MAX_BODIES, ModesError};
 pub use iterative::extremes;
 pub use shares::{Element, elements, softened, strain_shares};
 pub use table::{Fastest, Matrices, ModeRow, QUADRATIC, RatioSource, Table, table};
@@ -162,9 +162,9 @@ fn frequency(square: f64, resolution: f64) -> f64 {
 /// The modes about the pose of `state`, whatever its velocities: six per body.
 ///
 /// # Errors
-/// If there are more than [`MOST_BODIES`] bodies, a torsion angle is undefined, or numbers overflow.
+/// If there are more than [`MAX_BODIES`] bodies, a torsion angle is undefined, or numbers overflow.
 pub fn modes(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> Result<Modes, ModesError> {
-    if model.bodies.len() > MOST_BODIES {
+    if model.bodies.len() > MAX_BODIES {
         return Err(ModesError::TooMany { bodies: model.bodies.len() });
     }
     let (matrix, asymmetry) = scaled_stiffness(model, state)?;

@@ -91,13 +91,13 @@ pub struct Fall {
 }
 
 /// The precision whose square root is approximate: shown for comparison, never advised.
-const LOOSE: &str = "f32-micromath";
+const APPROXIMATE: &str = "f32-micromath";
 
 impl Stepper {
     /// Whether it may be advised: the kernel and the references with exact square roots.
     #[must_use]
     pub fn is_exact(&self) -> bool {
-        self.precision != LOOSE
+        self.precision != APPROXIMATE
     }
 
     /// The options of `host-sim run` that choose it; `None` for a reference.
@@ -270,7 +270,7 @@ pub(crate) mod tests {
         assert_eq!(front(&points, Machine::Host), [1]);
         assert_eq!(points[0].drawn(Machine::Host), Some((1.0, 1e-3)));
         points[0].lost = false;
-        points[0].stepper.precision = LOOSE.into();
+        points[0].stepper.precision = APPROXIMATE.into();
         assert_eq!(front(&points, Machine::Host), [1]);
         assert_eq!(counted(&points, Machine::Host), 1);
     }

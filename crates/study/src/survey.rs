@@ -13,7 +13,7 @@ use std::thread;
 
 use crate::reference::fine::states;
 use crate::reference::metric::Metric;
-use crate::reference::truth::{NoTruth, Opinion};
+use crate::reference::reference_solution::{NoReferenceSolution, Opinion};
 use crate::reference::window::{GROWTH, before_chaos};
 use crate::reference::{Mechanism, State};
 use dbd_plant::Method;
@@ -59,7 +59,7 @@ pub enum Phase {
     /// Determining the window.
     Window,
     /// Computing the reference solution.
-    Truth,
+    ReferenceSolution,
     /// Its second opinion.
     Opinion,
     /// The largest stable steps.
@@ -82,7 +82,7 @@ pub enum SurveyError {
     /// There is no reference solution to compare with.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    NoTruth(#[from] NoTruth),
+    NoReferenceSolution(#[from] NoReferenceSolution),
     /// Another survey of the same keeps its results in the folder.
     #[error("another trade-off study of this scene is writing to {}", folder.display())]
     #[diagnostic(help("wait until it completes, or give another folder with --out DIR"))]
@@ -123,13 +123,13 @@ pub fn survey(
         })?,
         None => Cache::nowhere(),
     };
-    let mut truth = None;
+    let mut reference_solution = None;
     let head = match cache.head {
         Some(head) => head,
         None => {
             let (head, found) = look(scene, key, frame, progress)?;
             cache.add(Entry::Head(head)).map_err(SurveyError::Write)?;
-            truth = Some(found);
+            reference_solution = Some(found);
             head
         }
     };
@@ -147,14 +147,14 @@ pub fn survey(
         .filter(|job| !cache.accuracies.contains_key(&(job.label.clone(), job.steps)))
         .collect();
     if !missing.is_empty() {
-        let truth = match truth {
-            Some(truth) => truth,
+        let reference_solution = match reference_solution {
+            Some(reference_solution) => reference_solution,
             None => {
-                progress(Phase::Truth);
+                progress(Phase::ReferenceSolution);
                 states(Opinion::Dop853, scene, false, &grid.times())?
             }
         };
-        let comparison = Comparison::new(scene, grid, &truth);
+        let comparison = Comparison::new(scene, grid, &reference_solution);
         run(&comparison, missing, &mut cache, progress)?;
     }
     let step = if highest > 0.0 { TIMED * 2.0 / highest } else { grid.interval };
@@ -207,21 +207,21 @@ pub(crate) fn look(
     key: u64,
     frame: Frame,
     progress: &mut dyn FnMut(Phase),
-) -> Result<(Head, Vec<State>), NoTruth> {
+) -> Result<(Head, Vec<State>), NoReferenceSolution> {
     progress(Phase::Window);
     let window = before_chaos(scene, frame.longest, SAMPLES, GROWTH)?;
     // At least one interval, so that there is something to compare.
     let last = window.times.iter().rposition(|time| *time <= window.end).unwrap_or(0).max(1);
     let grid = Grid::new(frame.unit, window.times[last]);
-    progress(Phase::Truth);
-    let truth = states(Opinion::Dop853, scene, false, &grid.times())?;
+    progress(Phase::ReferenceSolution);
+    let reference_solution = states(Opinion::Dop853, scene, false, &grid.times())?;
     progress(Phase::Opinion);
     let second = states(Opinion::Verner98, scene, false, &grid.times())?;
     let metric = Metric::of(&Mechanism::of(scene).0);
-    let pairs = truth.iter().zip(&second);
+    let pairs = reference_solution.iter().zip(&second);
     let uncertainty = pairs.map(|(a, b)| metric.distance(a, b)).fold(0.0, f64::max);
-    let in_space = in_space(&truth);
-    Ok((Head { key, grid, growth: window.growth[last], uncertainty, in_space }, truth))
+    let in_space = in_space(&reference_solution);
+    Ok((Head { key, grid, growth: window.growth[last], uncertainty, in_space }, reference_solution))
 }
 
 /// Finds the largest stable steps that are not known yet, on all the machine's threads.

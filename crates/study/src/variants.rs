@@ -207,7 +207,10 @@ pub fn distance((scene, own): (&Scene, &[State]), (other, states): (&Scene, &[St
     mechanism.bodies = pairs.iter().map(|(row, _)| mechanism.bodies[*row]).collect();
     let of = |states: &[State], rows: &[usize]| -> Vec<State> {
         let bodies = |state: &State| rows.iter().map(|row| state.bodies[*row]).collect();
-        states.iter().map(|state| State { bodies: bodies(state), twists: Vec::new() }).collect()
+        states
+            .iter()
+            .map(|state| State { bodies: bodies(state), torsion_angles: Vec::new() })
+            .collect()
     };
     let (rows, others): (Vec<_>, Vec<_>) = pairs.into_iter().unzip();
     let [own, states] = [of(&own[1..], &rows), of(&states[1..], &others)];

@@ -173,8 +173,8 @@ fn holds(scene: &Scene, method: &Method) -> bool {
 
 /// Whether a body rotates about more than one of its axes.
 #[must_use]
-pub fn in_space(truth: &[State]) -> bool {
-    truth.iter().flat_map(|state| &state.bodies).any(|body| {
+pub fn in_space(reference_solution: &[State]) -> bool {
+    reference_solution.iter().flat_map(|state| &state.bodies).any(|body| {
         let mut rates = [body.rate.x, body.rate.y, body.rate.z].map(f64::abs);
         rates.sort_by(f64::total_cmp);
         rates[1] > SPATIAL * rates[2] && rates[1] > SPATIAL

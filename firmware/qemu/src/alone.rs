@@ -60,7 +60,7 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     type PerDamper<T: Copy> = M::PerDamper<T>;
     type PerTsda<T: Copy> = M::PerTsda<T>;
     type PerPair<T: Copy> = M::PerPair<T>;
-    type PerHome<T: Copy> = M::PerHome<T>;
+    type PerSlot<T: Copy> = M::PerSlot<T>;
     type PerKnot = M::PerKnot;
     type PerSource = M::PerSource;
 
@@ -128,8 +128,8 @@ impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {
     }
 
     #[inline]
-    fn per_home<T: Copy>(&self, value: T) -> M::PerHome<T> {
-        self.model.per_home(value)
+    fn per_slot<T: Copy>(&self, value: T) -> M::PerSlot<T> {
+        self.model.per_slot(value)
     }
 
     #[inline]

@@ -95,8 +95,8 @@ fn sensor<R: Number>() -> Result<u64, Fault> {
     let mut sensor = Sensor::<R, 3>::new("sensor", 0, ERRORS, STEP).map_err(|_| Fault::NotWired)?;
     let mut hash = Fnv1a::new();
     for step in 0..STEPS {
-        let truth = R::from_f64((step % 100) as f64 * 0.012 - 0.6);
-        hash.word(sensor.sample(truth).word());
+        let mask = R::from_f64((step % 100) as f64 * 0.012 - 0.6);
+        hash.word(sensor.sample(mask).word());
     }
     Ok(hash.finish())
 }

@@ -37,8 +37,8 @@ fn balanced(constants: balance::Constants, seconds: u32) -> [f32; 2] {
             let read = |readout: &Readout<F32>| node.machine().read(readout).unwrap();
             let x = read(&CART_PENDULUM_READOUT_CART_POINT_F32).vector().unwrap().x;
             let angle = read(&CART_PENDULUM_READOUT_ANGLE_F32).scalar().unwrap();
-            let lean = angle + 5_f32.to_radians();
-            furthest = [furthest[0].max(x.abs()), furthest[1].max(lean.abs())];
+            let axis_error = angle + 5_f32.to_radians();
+            furthest = [furthest[0].max(x.abs()), furthest[1].max(axis_error.abs())];
         };
         controller.run(&mut delay, 1_000, look).unwrap();
         assert_eq!(node.borrow().machine().steps(), 2_000 * u64::from(second + 1));
@@ -49,16 +49,16 @@ fn balanced(constants: balance::Constants, seconds: u32) -> [f32; 2] {
 
 #[test]
 fn the_pendulum_stays_up() {
-    let [cart, lean] = balanced(balance::Constants::IP02, 8);
-    assert!(cart < 0.02 && lean < 0.02, "{cart} {lean}");
+    let [cart, axis_error] = balanced(balance::Constants::IP02, 8);
+    assert!(cart < 0.02 && axis_error < 0.02, "{cart} {axis_error}");
 }
 
 #[test]
 fn a_wrong_gain_lets_it_fall() {
     let mut wrong = balance::Constants::IP02;
     wrong.gains[1] = -wrong.gains[1];
-    let [_, lean] = balanced(wrong, 2);
-    assert!(lean > 0.5, "{lean}");
+    let [_, axis_error] = balanced(wrong, 2);
+    assert!(axis_error > 0.5, "{axis_error}");
 }
 
 /// How far \[m\] the tool is from its path at most after the first second, truly.

@@ -30,19 +30,19 @@ fn drive(high: bool, duty: u16, most: u16) -> (Level, [Duty; 2]) {
 }
 
 /// \[N\] of one count of the pendulum.
-fn force_of(lean: f64, cart: f64, spin: f64, speed: f64) -> f64 {
-    -(-20.0 * cart + 88.97 * lean - 18.33 * speed + 17.54 * spin)
+fn force_of(axis_error: f64, cart: f64, spin: f64, speed: f64) -> f64 {
+    -(-20.0 * cart + 88.97 * axis_error - 18.33 * speed + 17.54 * spin)
 }
 
 #[test]
 fn the_balancer_says_what_it_should_to_its_drivers() {
     let constants = balance::Constants::IP02;
     // First the pendulum leans by 100 counts; then cart and pendulum have moved by 50 and −4 counts.
-    let lean = |counts: f64| counts * TAU / 16_384.0;
+    let axis_error = |counts: f64| counts * TAU / 16_384.0;
     let cart = 50.0 * 0.093_18 / 16_384.0;
-    let first = force_of(lean(100.0), 0.0, 0.0, 0.0) / 20.68;
+    let first = force_of(axis_error(100.0), 0.0, 0.0, 0.0) / 20.68;
     let speed = 0.2 * cart / 1e-3;
-    let second = force_of(lean(96.0), cart, 0.2 * lean(-4.0) / 1e-3, speed);
+    let second = force_of(axis_error(96.0), cart, 0.2 * axis_error(-4.0) / 1e-3, speed);
     let second = (second + 7.725 * speed) / 20.68;
     assert!(first < -0.1 && second > 0.1 && second < 0.9, "{first} {second}");
     // Third it is over on the other side, faster than the motor can follow; fourth it has fallen.

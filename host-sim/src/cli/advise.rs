@@ -67,7 +67,7 @@ pub(super) fn advise_scene(
     let mut progress = Progress::of(bars, "evaluations", &mut *console.err as &mut dyn Write);
     let found = recommend(&scene, &request, &mut |phase| match phase {
         Phase::Window => progress.begin("time until chaotic motion"),
-        Phase::Truth => progress.begin("reference solution"),
+        Phase::ReferenceSolution => progress.begin("reference solution"),
         Phase::Opinion => progress.begin("second reference solution"),
         Phase::Limits => progress.begin("methods, cheapest first"),
         Phase::Variants => progress.begin("scene variants"),

@@ -58,7 +58,7 @@ pub(super) fn trade_scene(
     let mut progress = Progress::of(bars, "evaluations", lines);
     let done = trade(&scene, request, &mut |phase| match phase {
         Phase::Window => progress.begin("time until chaotic motion"),
-        Phase::Truth => progress.begin("reference solution"),
+        Phase::ReferenceSolution => progress.begin("reference solution"),
         Phase::Opinion => progress.begin("second reference solution"),
         Phase::Limits => progress.begin("largest stable steps"),
         Phase::Runs(done, all) => progress.update(done, all),

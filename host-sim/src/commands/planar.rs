@@ -6,7 +6,7 @@ use dbd_scene::Scene;
 use serde::Serialize;
 
 /// Largest number of reported departures; the others are counted.
-const MOST_TOLD: usize = 5;
+const MAX_REPORTED: usize = 5;
 
 /// The plane of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -47,7 +47,7 @@ impl PlaneCheck {
                 leaves: Vec::new(),
             },
             Err(unplanar) => {
-                let told = unplanar.departures.iter().take(MOST_TOLD);
+                let reported = unplanar.departures.iter().take(MAX_REPORTED);
                 Self {
                     planar: false,
                     asked,
@@ -55,7 +55,7 @@ impl PlaneCheck {
                     tsdas: None,
                     at_rest: 0,
                     departures: unplanar.departures.len(),
-                    leaves: told.map(|departure| departure.text(scene)).collect(),
+                    leaves: reported.map(|departure| departure.text(scene)).collect(),
                     plane: unplanar.plane,
                 }
             }

@@ -9,7 +9,7 @@ use std::io;
 use std::path::PathBuf;
 
 use dbd_kernel::damping::Damping;
-use dbd_plant::judge::{Opening, conserves_energy};
+use dbd_plant::monitor::{Opening, conserves_energy};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::plant::check;
 use dbd_plant::{FailedRun, Frequencies, Method, Plan, PlanError, PlantError};
@@ -264,9 +264,17 @@ pub fn run(
         files.add(file);
     }
     let every = options.every.or(scene.every);
-    let failure = ending.trouble.map(|trouble| {
+    let failure = ending.run_failure.map(|run_failure| {
         let mut searched = |done, all| progress(Stage::Searching, done, all);
-        FailedRun::new(scene, &options.method, &plan, every, ending.steps, trouble, &mut searched)
+        FailedRun::new(
+            scene,
+            &options.method,
+            &plan,
+            every,
+            ending.steps,
+            run_failure,
+            &mut searched,
+        )
     });
     let mut summary =
         summarise(scene, &options.method, &plan, &frequencies, &ending, &statistics, &failure);

@@ -5,7 +5,7 @@
 
 use dbd_kernel::damping::Damping;
 use dbd_plant::digits::{approximate, significant};
-use dbd_plant::judge::{OPENED, Opening, Reversal, Turning};
+use dbd_plant::monitor::{OPENED, Opening, Reversal, Turning};
 use dbd_plant::time::{display, rounded};
 use dbd_plant::{Frequencies, Method, Named as _, OrientationName, SchemeName};
 use dbd_scene::default_step::LARGEST_TURN;
@@ -13,7 +13,7 @@ use dbd_scene::{ElementDamping, Facts, OneSided, Scene, Severity};
 use dbd_study::limits::Limits;
 
 use crate::commands::rounding::{self, COMPOSED, named};
-use crate::compliance::{Stretch, stretches};
+use crate::compliance::{Deformation, stretches};
 
 /// h·c/μ up to which slow motion is accurate to 1 %: for interacting dampers, with all that act in parallel, on
 /// random mechanisms (`tests/dynamics/strong_dampers.rs`), and for each damper with compositions, by the table in
@@ -48,10 +48,10 @@ pub fn with_notes(scene: &Scene, facts: &Facts) -> [Vec<String>; 2] {
 /// Joints that the forces at t = 0 open by more than [`OPENED`] of their free length.
 fn of_stiffness(scene: &Scene) -> Option<String> {
     let mut soft = stretches(scene);
-    soft.retain(|stretch| stretch.share() > OPENED);
+    soft.retain(|deformation| deformation.share() > OPENED);
     soft.sort_by(|a, b| b.share().total_cmp(&a.share()));
     let (worst, others) = soft.split_first()?;
-    let name = |stretch: &Stretch| format!("`{}`", scene.joints[stretch.joint].name);
+    let name = |deformation: &Deformation| format!("`{}`", scene.joints[deformation.joint].name);
     let line = scene.line_of_joint(worst.joint).map(|line| format!(" (line {line})"));
     let mut text = format!(
         "joint {}{}: deflects by {} m under the forces at t = 0, {} % of its free length of {} m",

@@ -2,7 +2,7 @@
 //!
 //! `distances, numbers between => RMS, largest with time and body, most numbers between`.
 
-use dbd_plant::numerals::Digits;
+use dbd_plant::number_format::Digits;
 use serde::Serialize;
 
 /// A quantity of two runs.

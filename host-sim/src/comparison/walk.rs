@@ -4,7 +4,7 @@
 //! are; all NaNs are equal. The distances of bodies are those of `dbd-golden`.
 
 use dbd_golden::{Bands, Quantity as BodyQuantity, same};
-use dbd_plant::numerals::Digits;
+use dbd_plant::number_format::Digits;
 use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS};
 
 use crate::comparison::first::{Beyond, First};
@@ -184,7 +184,7 @@ impl<'h> Walk<'h> {
                 let of = BodyQuantity::of_column(column);
                 let values = [of_a[column], of_b[column]];
                 let sign = if of == BodyQuantity::Orientation && dot < 0.0 { -1.0 } else { 1.0 };
-                let digits = self.heads.map(|head| digits_of(head.numerals, column));
+                let digits = self.heads.map(|head| digits_of(head.number_format, column));
                 let row = of as usize;
                 let ulps = match same(values[0], values[1]) {
                     true => Some(0),
@@ -214,7 +214,7 @@ impl<'h> Walk<'h> {
         }
         for (row, (distance, body)) in furthest.into_iter().enumerate() {
             let quantity = &self.bodies[row];
-            judge(&mut self.beyond, quantity, distance, Some(body), [a, b]);
+            monitor(&mut self.beyond, quantity, distance, Some(body), [a, b]);
         }
     }
 
@@ -242,16 +242,16 @@ impl<'h> Walk<'h> {
         for (row, quantity) in quantities.iter_mut().enumerate() {
             let values = [of_a[row], of_b[row]];
             number(quantity, "energy", values, [Digits::Double; 2], [a, b], seen);
-            judge(&mut self.beyond, quantity, apart(values[0], values[1]), None, [a, b]);
+            monitor(&mut self.beyond, quantity, apart(values[0], values[1]), None, [a, b]);
         }
     }
 
     fn look_at_values(&mut self, a: &Row, b: &Row, seen: &mut Seen) {
-        let digits = self.heads.map(|head| head.numerals.reading);
+        let digits = self.heads.map(|head| head.number_format.reading);
         for (pair, quantity) in self.pairing.values.iter().zip(&mut self.values) {
             let values = [a.values[pair.rows[0]], b.values[pair.rows[1]]];
             number(quantity, "readout", values, digits, [a, b], seen);
-            judge(&mut self.beyond, quantity, apart(values[0], values[1]), None, [a, b]);
+            monitor(&mut self.beyond, quantity, apart(values[0], values[1]), None, [a, b]);
         }
     }
 }
@@ -279,7 +279,7 @@ fn number(
 }
 
 /// Keeps the first sample at which a quantity is beyond its band.
-fn judge(
+fn monitor(
     beyond: &mut Option<Beyond>,
     quantity: &Quantity,
     distance: f64,

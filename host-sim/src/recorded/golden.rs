@@ -6,7 +6,7 @@ use std::path::Path;
 
 use dbd_golden::subject::BodyNumbers;
 use dbd_golden::{Damage, Digits, Golden, Mismatch, recording};
-use dbd_plant::numerals::{Digits as StoredDigits, Numerals};
+use dbd_plant::number_format::{Digits as StoredDigits, NumberFormat};
 use dbd_scene::BODY_COLUMNS;
 
 use crate::recorded::head::{Head, Kind, Value};
@@ -91,11 +91,11 @@ fn head(file: &Path, golden: &Golden<'_>) -> Result<Head, Unreadable> {
         orientation: identity.precision.orientation.to_owned(),
         step: identity.step_size,
         samples: golden.samples(),
-        numerals: Numerals {
-            position: digits(identity.numerals.position),
-            orientation: digits(identity.numerals.orientation),
-            velocity: digits(identity.numerals.velocity),
-            reading: digits(identity.numerals.value),
+        number_format: NumberFormat {
+            position: digits(identity.number_format.position),
+            orientation: digits(identity.number_format.orientation),
+            velocity: digits(identity.number_format.velocity),
+            reading: digits(identity.number_format.value),
         },
         bodies,
         values: values.map(|name| Value { name: (*name).to_owned(), unit: None }).collect(),

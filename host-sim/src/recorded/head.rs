@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use dbd_plant::numerals::Numerals;
+use dbd_plant::number_format::NumberFormat;
 use serde::Serialize;
 
 use crate::report::summary::SetValue;
@@ -52,7 +52,7 @@ pub struct Head {
     /// Samples.
     pub samples: u64,
     /// How many digits its numbers have.
-    pub numerals: Numerals,
+    pub number_format: NumberFormat,
     /// Names of the bodies in the model's order.
     pub bodies: Vec<String>,
     /// The other recorded values, except energies.

@@ -2,7 +2,7 @@
 //!
 //! `line, names, digits => row; or the column without a number`.
 
-use dbd_plant::numerals::{Digits, Numerals};
+use dbd_plant::number_format::{Digits, NumberFormat};
 use dbd_scene::BODY_COLUMNS;
 
 use crate::recorded::row::Row;
@@ -18,11 +18,11 @@ pub struct WrongText {
 
 /// The digits of a number of a body, by its column.
 #[must_use]
-pub fn digits_of(numerals: Numerals, column: usize) -> Digits {
+pub fn digits_of(number_format: NumberFormat, column: usize) -> Digits {
     match column {
-        0..3 => numerals.position,
-        3..7 => numerals.orientation,
-        _ => numerals.velocity,
+        0..3 => number_format.position,
+        3..7 => number_format.orientation,
+        _ => number_format.velocity,
     }
 }
 
@@ -73,7 +73,7 @@ pub fn separated(line: &str) -> Option<&'static str> {
 pub fn read(
     line: &str,
     names: &[String],
-    numerals: Numerals,
+    number_format: NumberFormat,
     row: &mut Row,
 ) -> Result<(), WrongText> {
     let mut texts = line.split(',');
@@ -111,7 +111,7 @@ pub fn read(
     for body in &mut row.bodies {
         for (column, value) in body.iter_mut().enumerate() {
             debug_assert!(column < BODY_COLUMNS.len());
-            *value = number(digits_of(numerals, column), true)?;
+            *value = number(digits_of(number_format, column), true)?;
         }
     }
     let mut energies = [0.0; 3];
@@ -120,7 +120,7 @@ pub fn read(
     }
     row.energies = Some(energies);
     for value in &mut row.values {
-        *value = number(numerals.reading, false)?;
+        *value = number(number_format.reading, false)?;
     }
     row.hash = None;
     if texts.next().is_some() {
@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn a_line_is_read_to_its_bits_or_its_column_is_named() {
-        let numerals = Numerals::of_names("f32", "quaternion").unwrap();
+        let number_format = NumberFormat::of_names("f32", "quaternion").unwrap();
         let names: Vec<String> = std::iter::once("time".to_owned())
             .chain(BODY_COLUMNS.map(|end| format!("b{end}")))
             .chain(
@@ -154,13 +154,13 @@ mod tests {
             .collect();
         let mut row = Row { bodies: vec![[0.0; 13]], values: vec![0.0], ..Row::default() };
         let good = "0.1,0.1,-0.0,3,1,0,0,0,7,8,9,10,11,12,0.25,1,1.25,NaN";
-        read(good, &names, numerals, &mut row).unwrap();
+        read(good, &names, number_format, &mut row).unwrap();
         assert_eq!((row.time, row.bodies[0][0]), (0.1, f64::from(0.1_f32)));
         assert!(row.bodies[0][1].is_sign_negative() && row.values[0].is_nan());
         assert_eq!(row.energies, Some([0.25, 1.0, 1.25]));
         let mut wrong = |from: &str, to: &str| {
             let line = good.replacen(from, to, 1);
-            let wrong = read(&line, &names, numerals, &mut row).unwrap_err();
+            let wrong = read(&line, &names, number_format, &mut row).unwrap_err();
             (wrong.column, wrong.problem)
         };
         assert_eq!(
@@ -179,7 +179,7 @@ mod tests {
                 "column `b.y`: `nan` is not a number of single precision as written in a trace",
             ),
             ("NaN", "column `b.y`: `NaN` is not finite"),
-            ("1e39", "`1e39` is not a number of single precision"),
+            ("1e39", "column `b.y`: `1e39` is not a number of single precision"),
         ] {
             let (column, problem) = wrong("-0.0", text);
             assert_eq!(column, 9);

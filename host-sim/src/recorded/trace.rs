@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use dbd_golden::subject::BodyNumbers;
 use dbd_kernel::words::{Fnv1a, Word, WordVisitor as _};
-use dbd_plant::numerals::{Digits, Numerals};
+use dbd_plant::number_format::{Digits, NumberFormat};
 use dbd_plant::time::display;
 use dbd_plant::{Named as _, OrientationName, PrecisionName};
 use dbd_scene::TraceColumns;
@@ -54,7 +54,7 @@ pub struct TraceReader {
     lines: Lines,
     names: Vec<String>,
     summary: RunSummary,
-    numerals: Numerals,
+    number_format: NumberFormat,
     summary_file: PathBuf,
     samples: u64,
     rows: u64,
@@ -74,7 +74,7 @@ impl TraceReader {
     pub fn open(file: &Path, summary_file: &Path) -> Result<(Head, Self), Unreadable> {
         let summary = RunSummary::read(summary_file)?;
         let names = (&*summary.precision, &*summary.orientation);
-        let Some(numerals) = Numerals::of_names(names.0, names.1) else {
+        let Some(number_format) = NumberFormat::of_names(names.0, names.1) else {
             let problem = format!("unknown precision `{}`", names.0);
             return Err(Unreadable::new(summary_file, problem));
         };
@@ -124,7 +124,7 @@ impl TraceReader {
             orientation: summary.orientation.clone(),
             step: summary.step,
             samples: summary.samples.map_or_else(|| count(file, &header), Ok)?,
-            numerals,
+            number_format,
             bodies: columns.bodies,
             values: values.collect(),
             status: Some(summary.status.clone()),
@@ -146,7 +146,7 @@ impl TraceReader {
             lines,
             names,
             summary,
-            numerals,
+            number_format,
             summary_file,
             samples,
             rows,
@@ -173,7 +173,7 @@ impl TraceReader {
             return Ok(None);
         };
         let before = self.row.step;
-        let read = read(line, &self.names, self.numerals, &mut self.row);
+        let read = read(line, &self.names, self.number_format, &mut self.row);
         if !self.lines.is_whole() {
             let cut = self.lines.wrong("the file ends within this line: it was truncated");
             return Err(cut.with_remedy(AGAIN));
@@ -311,7 +311,7 @@ impl TraceReader {
         let mut state = Fnv1a::new();
         for body in &self.row.bodies {
             for (column, value) in body.iter().enumerate() {
-                state.word(word(digits_of(self.numerals, column), *value));
+                state.word(word(digits_of(self.number_format, column), *value));
             }
         }
         summary.turns.iter().for_each(|turns| state.word(Word::I32(*turns)));

@@ -13,15 +13,15 @@ use dbd_study::command::with_changes;
 use crate::report::summary::Summary;
 
 /// Largest number of bodies in a still picture.
-const MOST_PICTURED: usize = 300;
+const MAX_PICTURED: usize = 300;
 /// Largest number of listed warnings; the others are counted.
-const MOST_WARNINGS: usize = 20;
+const MAX_WARNINGS: usize = 20;
 
 /// The texts of a run's page. `called` is the scene's name on the command line.
 #[must_use]
 pub fn text(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Text {
     let failures = (summary.status != "ok").then(|| summary.status.clone());
-    let pictured = scene.body_names.len() <= MOST_PICTURED;
+    let pictured = scene.body_names.len() <= MAX_PICTURED;
     let cells = |(row, text): (&str, String)| vec![row.into(), text];
     let table = |title: &str, rows: Vec<(&'static str, String)>| Table {
         title: title.into(),
@@ -51,7 +51,7 @@ pub fn text(scene: &Scene, plan: &Plan, summary: &Summary, called: &str) -> Text
 /// The first warnings, and how many more there are.
 fn warnings(summary: &Summary) -> Vec<String> {
     let all = &summary.warnings;
-    let mut warnings: Vec<String> = all.iter().take(MOST_WARNINGS).cloned().collect();
+    let mut warnings: Vec<String> = all.iter().take(MAX_WARNINGS).cloned().collect();
     if let more @ 1.. = all.len() - warnings.len() {
         warnings.push(format!("{more} more in `summary.json`"));
     }

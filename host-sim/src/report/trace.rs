@@ -6,7 +6,7 @@
 
 use std::io::{self, Write};
 
-use dbd_plant::numerals::Digits;
+use dbd_plant::number_format::Digits;
 use dbd_scene::Scene;
 
 use crate::simulate::Sample;
@@ -85,16 +85,16 @@ impl<W: Write> TraceWriter<W> {
     /// If the writer fails.
     pub fn row(&mut self, sample: &Sample<'_>) -> io::Result<()> {
         self.numbers(Digits::Double, &[sample.time])?;
-        let numerals = sample.numerals;
+        let number_format = sample.number_format;
         for body in &sample.state.bodies {
-            self.numbers(numerals.position, &body.position.to_f64())?;
-            self.numbers(numerals.orientation, &body.orientation.to_f64())?;
-            self.numbers(numerals.velocity, &body.velocity.to_f64())?;
-            self.numbers(numerals.velocity, &body.angular_velocity.to_f64())?;
+            self.numbers(number_format.position, &body.position.to_f64())?;
+            self.numbers(number_format.orientation, &body.orientation.to_f64())?;
+            self.numbers(number_format.velocity, &body.velocity.to_f64())?;
+            self.numbers(number_format.velocity, &body.angular_velocity.to_f64())?;
         }
         let energy = &sample.energy;
         self.numbers(Digits::Double, &[energy.kinetic, energy.potential(), energy.total()])?;
-        self.numbers(numerals.reading, sample.readings)?;
+        self.numbers(number_format.reading, sample.readings)?;
         self.rows.write_record(None::<&[u8]>)?;
         Ok(())
     }

@@ -15,7 +15,7 @@ use dbd_kernel::energy::{energy, of_memories};
 use dbd_kernel::power::power;
 use dbd_kernel::schedule::{LoadWindow, Signal};
 use dbd_kernel::{F64, State};
-use dbd_plant::judge::laws_dissipate;
+use dbd_plant::monitor::laws_dissipate;
 use dbd_plant::{AnyPlant, Method, Named as _, Plan, PlantError, SchemeName, plant};
 use dbd_scene::{Scene, SceneModel};
 use serde::Serialize;

@@ -7,8 +7,8 @@ use std::io;
 use std::time::{Duration, Instant};
 
 use dbd_kernel::{Energy, F64, State, Status};
-use dbd_plant::judge::{Judge, Opening, Reversal, Trouble, Turning, Verdict};
-use dbd_plant::numerals::Numerals;
+use dbd_plant::monitor::{Monitor, Opening, Reversal, RunFailure, Turning, Verdict};
+use dbd_plant::number_format::NumberFormat;
 use dbd_plant::readings::append;
 use dbd_plant::rounding::{Loss, RoundingWatch};
 use dbd_plant::{AnyPlant, Method, Plan, PlantError, plant};
@@ -25,7 +25,7 @@ pub struct Sample<'s> {
     /// The state, widened exactly.
     pub state: &'s State<SceneModel<F64>>,
     /// The precision of its words.
-    pub numerals: Numerals,
+    pub number_format: NumberFormat,
     /// The scene's read-outs, one number per column; NaN if a torsion angle is undefined.
     pub readings: &'s [f64],
     /// \[J\] its energy.
@@ -67,7 +67,7 @@ pub struct Ending {
     /// Time on the clock spent stepping; sampling does not count.
     pub wall: Duration,
     /// Why it ended early.
-    pub trouble: Option<Trouble>,
+    pub run_failure: Option<RunFailure>,
     /// The largest opening of each joint, checked at the samples and about a thousand times per run.
     pub openings: Vec<Opening>,
     /// The body with the largest rotation in a step, checked likewise.
@@ -104,18 +104,18 @@ pub fn simulate(
 ) -> Result<Ending, SimulationError> {
     let mut course = Course::new(scene, method, plan)?;
     let mut wall = Duration::ZERO;
-    let trouble = loop {
+    let run_failure = loop {
         let steps = match course.look(observer)? {
             Ok(0) => break None,
             Ok(steps) => steps,
-            Err(trouble) => break Some(trouble),
+            Err(run_failure) => break Some(run_failure),
         };
         if let Status::Failed(failure) = course.advance(steps, &mut wall) {
-            break Some(Trouble::Step(failure.cause));
+            break Some(RunFailure::Step(failure.cause));
         }
     };
     let evaluations = course.plant.evaluations();
-    Ok(course.ending(evaluations, wall, trouble))
+    Ok(course.ending(evaluations, wall, run_failure))
 }
 
 /// A run in progress, from check to check.
@@ -124,7 +124,7 @@ pub(super) struct Course<'c> {
     plan: &'c Plan,
     /// The checked quantities.
     pub(super) plant: Box<dyn AnyPlant>,
-    judge: Judge,
+    monitor: Monitor,
     rounding: Option<RoundingWatch>,
     engagements: Engagements,
     readings: Vec<f64>,
@@ -144,7 +144,7 @@ impl<'c> Course<'c> {
         plan: &'c Plan,
     ) -> Result<Self, PlantError> {
         let plant = plant(scene, method, plan.step)?;
-        let judge = Judge::new(scene, plant.as_ref());
+        let monitor = Monitor::new(scene, plant.as_ref());
         let rounding = RoundingWatch::new(plant.as_ref());
         let engagements = Engagements::new(scene);
         let stride = plan.unseen();
@@ -153,7 +153,7 @@ impl<'c> Course<'c> {
             scene,
             plan,
             plant,
-            judge,
+            monitor,
             rounding,
             engagements,
             readings,
@@ -190,11 +190,11 @@ impl<'c> Course<'c> {
     pub(super) fn look(
         &mut self,
         observer: &mut dyn Observer,
-    ) -> Result<Result<u64, Trouble>, SimulationError> {
+    ) -> Result<Result<u64, RunFailure>, SimulationError> {
         let state = self.plant.state();
-        let verdict = match self.judge.judge(&state) {
+        let verdict = match self.monitor.monitor(&state) {
             Ok(verdict) => verdict,
-            Err(trouble) => return Ok(Err(trouble)),
+            Err(run_failure) => return Ok(Err(run_failure)),
         };
         let done = state.step;
         self.engagements.look(self.plant.as_ref());
@@ -202,7 +202,7 @@ impl<'c> Course<'c> {
         if done == self.next_sample {
             read(self.scene, self.plant.as_ref(), &mut self.readings);
             let sample = Sample {
-                extensions: self.judge.extensions(),
+                extensions: self.monitor.extensions(),
                 ..Sample::new(self.plant.as_ref(), &state, &self.readings, &verdict)
             };
             observer.sample(&sample).map_err(SimulationError::Observer)?;
@@ -219,17 +219,17 @@ impl<'c> Course<'c> {
         self,
         evaluations: u64,
         wall: Duration,
-        trouble: Option<Trouble>,
+        run_failure: Option<RunFailure>,
     ) -> Ending {
         Ending {
             steps: self.plant.steps(),
             evaluations,
             wall,
-            trouble,
-            openings: self.judge.openings().to_vec(),
-            turning: self.judge.turning(),
+            run_failure,
+            openings: self.monitor.openings().to_vec(),
+            turning: self.monitor.turning(),
             losses: self.rounding.as_ref().map(RoundingWatch::losses).unwrap_or_default(),
-            reversals: self.judge.reversals().to_vec(),
+            reversals: self.monitor.reversals().to_vec(),
             engagements: self.engagements.found(),
         }
     }
@@ -253,7 +253,7 @@ impl<'s> Sample<'s> {
         Self {
             time: plant.time(),
             state,
-            numerals: plant.numerals(),
+            number_format: plant.number_format(),
             readings,
             energy: verdict.energy,
             extension: verdict.extension,

@@ -9,7 +9,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use dbd_plant::digits::significant;
-use dbd_plant::judge::conserves_energy;
+use dbd_plant::monitor::conserves_energy;
 use dbd_plant::time::display;
 use dbd_scene::Scene;
 use miette::Diagnostic;

@@ -116,7 +116,7 @@ impl<
             law,
             a: between[0],
             b: between[1],
-            stars: 1,
+            triples: 1,
             arms: 1,
             shared: false,
             point: self.points.len() as u16,

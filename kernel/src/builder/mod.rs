@@ -34,7 +34,7 @@ use crate::vector::Quaternion;
 /// Spring triples of TSDAs between two bodies, into which a joint is expanded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
-pub struct Stars<'p> {
+pub struct Triples<'p> {
     /// First and second body.
     pub between: [BodyIndex; 2],
     /// \[m\] one point of the first body per triple, body axes (world for the ground).
@@ -203,7 +203,7 @@ impl<
     /// bushing.
     ///
     /// # Errors
-    /// As [`Self::add_stars`].
+    /// As [`Self::add_triples`].
     pub fn add_tsda(
         &mut self,
         between: [BodyIndex; 2],
@@ -214,7 +214,7 @@ impl<
     ) -> Result<(), BuildError> {
         let [a, b] = points;
         let (centres, arms) = ([a], [b]);
-        self.add_stars(Stars {
+        self.add_triples(Triples {
             between,
             centres: &centres,
             arms: &arms,
@@ -229,24 +229,24 @@ impl<
     ///
     /// # Errors
     /// [`BuildError::Full`] for a capacity, an unknown body, a quantity out of range.
-    pub fn add_stars(&mut self, stars: Stars<'_>) -> Result<(), BuildError> {
-        self.check_pair(stars.between)?;
+    pub fn add_triples(&mut self, triples: Triples<'_>) -> Result<(), BuildError> {
+        self.check_pair(triples.between)?;
         let not_negative = |x: f64| x >= 0.0 && x.is_finite();
-        check(not_negative(stars.stiffness), Quantity::Stiffness)?;
-        check(not_negative(stars.damping), Quantity::Damping)?;
-        check(not_negative(stars.free_length), Quantity::FreeLength)?;
-        let dead = stars.clearance != 0.0;
-        let bushing = stars.free_length == 0.0;
-        check(not_negative(stars.clearance) && !(bushing && dead), Quantity::Clearance)?;
-        let points = stars.centres.iter().chain(stars.arms);
+        check(not_negative(triples.stiffness), Quantity::Stiffness)?;
+        check(not_negative(triples.damping), Quantity::Damping)?;
+        check(not_negative(triples.free_length), Quantity::FreeLength)?;
+        let dead = triples.clearance != 0.0;
+        let bushing = triples.free_length == 0.0;
+        check(not_negative(triples.clearance) && !(bushing && dead), Quantity::Clearance)?;
+        let points = triples.centres.iter().chain(triples.arms);
         check(points.clone().all(|p| finite(p) && P::Vector::holds(*p)), Quantity::Point)?;
-        let (count, arms) = (stars.centres.len(), stars.arms.len());
+        let (count, arms) = (triples.centres.len(), triples.arms.len());
         let shared = !bushing && count > 1 && (arms == 1 || arms == 3);
-        let per_star = if shared { arms } else { arms / count.max(1) };
-        let whole = shared || per_star * count == arms;
-        check(count <= 255 && whole && (1..=3).contains(&per_star), Quantity::Arms)?;
-        let elements = count * per_star;
-        check(!bushing || per_star == 1, Quantity::Arms)?;
+        let per_triple = if shared { arms } else { arms / count.max(1) };
+        let whole = shared || per_triple * count == arms;
+        check(count <= 255 && whole && (1..=3).contains(&per_triple), Quantity::Arms)?;
+        let elements = count * per_triple;
+        check(!bushing || per_triple == 1, Quantity::Arms)?;
 
         room(&self.groups, 1, Part::Groups)?;
         room(&self.points, count + arms, Part::Points)?;
@@ -257,15 +257,15 @@ impl<
         }
         let law = if bushing { Law::PointBushing } else { Law::Tsda };
         let rows = law.damper_rows(elements, P::Space::PLANAR);
-        let damper = self.add_dampers(stars.damping, elements, rows)?;
-        let clearance = self.add_clearance(stars.clearance)?;
+        let damper = self.add_dampers(triples.damping, elements, rows)?;
+        let clearance = self.add_clearance(triples.clearance)?;
         let element = if bushing { self.bushings.len() } else { self.tsdas.len() } as u16;
         let group = Group {
             law,
-            a: stars.between[0],
-            b: stars.between[1],
-            stars: count as u8,
-            arms: per_star as u8,
+            a: triples.between[0],
+            b: triples.between[1],
+            triples: count as u8,
+            arms: per_triple as u8,
             shared,
             point: self.points.len() as u16,
             element,
@@ -279,9 +279,9 @@ impl<
         }
         for _ in 0..elements {
             if bushing {
-                let _ = self.bushings.push(PointBushing::from_f64(stars.stiffness));
+                let _ = self.bushings.push(PointBushing::from_f64(triples.stiffness));
             } else {
-                let _ = self.tsdas.push(Tsda::from_f64(stars.stiffness, stars.free_length));
+                let _ = self.tsdas.push(Tsda::from_f64(triples.stiffness, triples.free_length));
             }
         }
         Ok(())
@@ -321,7 +321,7 @@ impl<
             law: Law::PointOnLine,
             a: between[0],
             b: between[1],
-            stars: 1,
+            triples: 1,
             arms: points.len() as u8,
             shared: false,
             point: self.points.len() as u16,

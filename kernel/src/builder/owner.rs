@@ -52,7 +52,7 @@ impl<
     type PerDamper<T: Copy> = Vec<T, DAMPERS>;
     type PerTsda<T: Copy> = Vec<T, TSDAS>;
     type PerPair<T: Copy> = [T; 0];
-    type PerHome<T: Copy> = [T; 0];
+    type PerSlot<T: Copy> = [T; 0];
     type PerKnot = Vec<KnotStep<P::Real>, KNOTS>;
     type PerSource = [SourceStep; 0];
 
@@ -114,7 +114,7 @@ impl<
         []
     }
 
-    fn per_home<T: Copy>(&self, _: T) -> [T; 0] {
+    fn per_slot<T: Copy>(&self, _: T) -> [T; 0] {
         []
     }
 

@@ -5,12 +5,12 @@
 use crate::damping::kick::Kick;
 use crate::damping::moving::Moving;
 use crate::damping::pair::{Damper, Limits};
+use crate::force_pair::Direction;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::laws::MOST_BRANCHES;
+use crate::laws::MAX_BRANCHES;
 use crate::model::{ModelRef, Terms};
 use crate::real::Real as _;
-use crate::record::Direction;
 use crate::space::{Linear as _, Moment as _};
 
 /// A body and its response to a unit impulse along the sum.
@@ -24,12 +24,12 @@ pub(crate) struct Held<P: Geometry> {
 }
 
 /// The bodies moved by a sum of directions, each once, in order of first occurrence.
-pub(crate) struct Far<P: Geometry>([Option<Held<P>>; 2 * (1 + MOST_BRANCHES)]);
+pub(crate) struct Far<P: Geometry>([Option<Held<P>>; 2 * (1 + MAX_BRANCHES)]);
 
 impl<P: Geometry> Default for Far<P> {
     #[inline(always)]
     fn default() -> Self {
-        Self([None; 2 * (1 + MOST_BRANCHES)])
+        Self([None; 2 * (1 + MAX_BRANCHES)])
     }
 }
 

@@ -1,6 +1,6 @@
 //! Joint-wise dampers: the impulses of a joint's damping modes.
 //!
-//! `(pose, wrenches, velocities, levers) => velocities`. Like the damper passes of [`crate::damping`], with a joint's
+//! `(pose, wrenches, velocities, modes) => velocities`. Like the damper passes of [`crate::damping`], with a joint's
 //! damping modes (levers) in place of its dampers; the damper of a raw spring and of a torsion spring is a single mode
 //! that rotates with the pose. The pose-dependent quantities of a mode and its part of the kick are used twice: in the
 //! pass before a step's end and in the one at the start of the next. Universal joints of bushings and elements with a
@@ -10,8 +10,8 @@ use core::sync::atomic::{Ordering, compiler_fence};
 
 use crate::body::BodyState;
 use crate::damping::kick::Kick;
-use crate::damping::lever::{Kind, Lever, Stop};
-use crate::damping::levers::counts;
+use crate::damping::mode::{DampingMode, Kind, Stop};
+use crate::damping::modes::counts;
 use crate::damping::moving::Moving;
 use crate::damping::{LawsKnown, Sweep, sweep_group, sweep_laws};
 use crate::geometry::Geometry;
@@ -25,7 +25,7 @@ use crate::space::{Linear as _, Moment as _, Space as _};
 pub(crate) fn sweep_joints<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
-    (levers, stops): (&mut [Lever<P>], u16),
+    (modes, stops): (&mut [DampingMode<P>], u16),
     (states, of_laws): LawsKnown<'_, P, T>,
     bodies: &mut [BodyState<P>],
     sums: &mut [P::PassSum],
@@ -40,8 +40,8 @@ pub(crate) fn sweep_joints<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: 
     let stops = usize::from(stops);
     for number in 0..stops {
         let number = if REVERSE { stops - 1 - number } else { number };
-        let Some(&Lever { stop, .. }) = levers.get(number) else { break };
-        act::<P, T, K, REVERSE>(model, sweep, &stop, levers, &mut moving);
+        let Some(&DampingMode { stop, .. }) = modes.get(number) else { break };
+        act::<P, T, K, REVERSE>(model, sweep, &stop, modes, &mut moving);
     }
     if !REVERSE {
         sweep_laws::<P, T, K, REVERSE>(model, sweep, (states, of_laws), &mut moving);
@@ -55,14 +55,14 @@ fn act<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
-    levers: &mut [Lever<P>],
+    modes: &mut [DampingMode<P>],
     moving: &mut Moving<'_, P>,
 ) {
-    let Some(levers) = levers.get_mut(stop.row.into()..) else { return };
+    let Some(modes) = modes.get_mut(stop.row.into()..) else { return };
     match stop.kind {
         Kind::Ground => {
-            if let Some(levers) = levers.get_mut(..stop.count.into()) {
-                ground::<P, T, K, REVERSE>(model, sweep, stop, levers, moving);
+            if let Some(modes) = modes.get_mut(..stop.count.into()) {
+                ground::<P, T, K, REVERSE>(model, sweep, stop, modes, moving);
             }
         }
         Kind::Joint => {
@@ -70,26 +70,26 @@ fn act<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
             let frames = sweep.places.frames;
             if P::Space::PLANAR {
                 if usize::from(stop.count) == few {
-                    joint::<P, T, REVERSE, 2>(model, frames, stop, levers, moving);
+                    joint::<P, T, REVERSE, 2>(model, frames, stop, modes, moving);
                 } else {
-                    joint::<P, T, REVERSE, 3>(model, frames, stop, levers, moving);
+                    joint::<P, T, REVERSE, 3>(model, frames, stop, modes, moving);
                 }
             } else if usize::from(stop.count) == few {
-                joint::<P, T, REVERSE, 3>(model, frames, stop, levers, moving);
+                joint::<P, T, REVERSE, 3>(model, frames, stop, modes, moving);
             } else if usize::from(stop.count) == more {
-                joint::<P, T, REVERSE, 5>(model, frames, stop, levers, moving);
+                joint::<P, T, REVERSE, 5>(model, frames, stop, modes, moving);
             } else {
-                joint::<P, T, REVERSE, 6>(model, frames, stop, levers, moving);
+                joint::<P, T, REVERSE, 6>(model, frames, stop, modes, moving);
             }
         }
         Kind::Raw => {
-            if let Some(lever) = levers.first() {
-                single::<P, T, REVERSE, true>(model, stop, lever, moving);
+            if let Some(mode) = modes.first() {
+                single::<P, T, REVERSE, true>(model, stop, mode, moving);
             }
         }
         Kind::Torsion => {
-            if let Some(lever) = levers.first() {
-                single::<P, T, REVERSE, false>(model, stop, lever, moving);
+            if let Some(mode) = modes.first() {
+                single::<P, T, REVERSE, false>(model, stop, mode, moving);
             }
         }
         Kind::Dampers => {
@@ -120,7 +120,7 @@ fn ground<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
-    levers: &mut [Lever<P>],
+    modes: &mut [DampingMode<P>],
     moving: &mut Moving<'_, P>,
 ) {
     let row = BodyIndex(stop.ends[0]).row();
@@ -139,14 +139,14 @@ fn ground<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     // Unrolled: the loop's own instructions would be a fifth of the total.
     macro_rules! act {
         ($from:expr, $to:expr; $($n:literal)*) => {$(
-            if $n >= $from && $n < $to && let Some(lever) = levers.get_mut($n) {
+            if $n >= $from && $n < $to && let Some(mode) = modes.get_mut($n) {
                 if REVERSE {
-                    lever.linked[0] = lever.along.dot(pushed) + lever.moment.dot(kick.angular);
+                    mode.linked[0] = mode.along.dot(pushed) + mode.moment.dot(kick.angular);
                 }
-                let kicked = lever.linked[0];
-                let rate = lever.along.dot(velocity) + lever.moment.dot(spin);
-                let impulse = lever.less[usize::from(REVERSE)] * kicked - lever.impulse * rate;
-                let (along, moment) = (lever.along * impulse, lever.moment * impulse);
+                let kicked = mode.linked[0];
+                let rate = mode.along.dot(velocity) + mode.moment.dot(spin);
+                let impulse = mode.less[usize::from(REVERSE)] * kicked - mode.impulse * rate;
+                let (along, moment) = (mode.along * impulse, mode.moment * impulse);
                 push = if $n == 0 { along } else { push + along };
                 turn = if $n == 0 { moment } else { turn + moment };
                 anew();
@@ -154,13 +154,13 @@ fn ground<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
         )*};
     }
     let [few, more, all] = counts::<P>();
-    if levers.len() < few {
+    if modes.len() < few {
         return;
     }
     act!(0, few; 0 1 2);
-    if levers.len() >= more {
+    if modes.len() >= more {
         act!(few, more; 2 3 4);
-        if levers.len() >= all {
+        if modes.len() >= all {
             act!(more, all; 2 3 4 5);
         }
     }
@@ -183,15 +183,15 @@ fn joint<P: Geometry, T: Terms<P>, const REVERSE: bool, const N: usize>(
     model: &ModelRef<'_, P, T>,
     frames: &[P::Frame],
     stop: &Stop,
-    levers: &[Lever<P>],
+    modes: &[DampingMode<P>],
     moving: &mut Moving<'_, P>,
 ) {
     let [row, other_row] = stop.ends.map(usize::from);
-    let (Some(body), Some(frame), Some(partner), Some(levers)) = (
+    let (Some(body), Some(frame), Some(partner), Some(modes)) = (
         model.bodies.get(row),
         frames.get(row),
         model.bodies.get(other_row),
-        levers.first_chunk::<N>(),
+        modes.first_chunk::<N>(),
     ) else {
         return;
     };
@@ -201,8 +201,8 @@ fn joint<P: Geometry, T: Terms<P>, const REVERSE: bool, const N: usize>(
         return;
     };
     let velocity = P::to_body(frame, velocity - partner_velocity);
-    let rate = |lever: &Lever<P>| {
-        lever.along.dot(velocity) + lever.moment.dot(spin) - lever.other.dot(partner_spin)
+    let rate = |mode: &DampingMode<P>| {
+        mode.along.dot(velocity) + mode.moment.dot(spin) - mode.other.dot(partner_spin)
     };
     let mut impulses = [P::Real::ZERO; N];
     let mut push = P::Vector::ZERO;
@@ -213,17 +213,17 @@ fn joint<P: Geometry, T: Terms<P>, const REVERSE: bool, const N: usize>(
         ($n:literal: $($j:literal)*) => {
             if $n < N {
                 let i = if REVERSE { N - 1 - $n } else { $n };
-                let lever = &levers[i];
-                let rate = rate(lever);
+                let mode = &modes[i];
+                let rate = rate(mode);
                 $(let rate = if REVERSE {
-                    rate + levers[N - 1 - $j].linked[i] * impulses[N - 1 - $j]
+                    rate + modes[N - 1 - $j].linked[i] * impulses[N - 1 - $j]
                 } else {
-                    rate + lever.linked[$j] * impulses[$j]
+                    rate + mode.linked[$j] * impulses[$j]
                 };)*
-                let impulse = lever.less[usize::from(REVERSE)] - lever.impulse * rate;
+                let impulse = mode.less[usize::from(REVERSE)] - mode.impulse * rate;
                 impulses[i] = impulse;
-                let (along, moment) = (lever.along * impulse, lever.moment * impulse);
-                let other = lever.other * impulse;
+                let (along, moment) = (mode.along * impulse, mode.moment * impulse);
+                let other = mode.other * impulse;
                 push = if $n == 0 { along } else { push + along };
                 turn = if $n == 0 { moment } else { turn + moment };
                 partner_turn = if $n == 0 { other } else { partner_turn + other };
@@ -250,38 +250,38 @@ fn joint<P: Geometry, T: Terms<P>, const REVERSE: bool, const N: usize>(
 fn single<P: Geometry, T: Terms<P>, const REVERSE: bool, const LINE: bool>(
     model: &ModelRef<'_, P, T>,
     stop: &Stop,
-    lever: &Lever<P>,
+    mode: &DampingMode<P>,
     moving: &mut Moving<'_, P>,
 ) {
     let [row, other_row] = stop.ends.map(usize::from);
-    let less = lever.less[usize::from(REVERSE)];
+    let less = mode.less[usize::from(REVERSE)];
     let (Some(body), Some((velocity, spin))) = (model.bodies.get(row), moving.velocities(row))
     else {
         return;
     };
-    let mut rate = lever.moment.dot(spin);
+    let mut rate = mode.moment.dot(spin);
     if let (Some(partner), Some((other_velocity, other_spin))) =
         (model.bodies.get(other_row), moving.velocities(other_row))
     {
-        rate = rate - lever.other.dot(other_spin);
+        rate = rate - mode.other.dot(other_spin);
         if LINE {
-            rate = rate + lever.along.dot(velocity - other_velocity);
+            rate = rate + mode.along.dot(velocity - other_velocity);
         }
-        let impulse = less - lever.impulse * rate;
+        let impulse = less - mode.impulse * rate;
         if LINE {
-            moving.accelerate(row, lever.along * (impulse * body.inverse_mass));
-            moving.accelerate(other_row, lever.along * -(impulse * partner.inverse_mass));
+            moving.accelerate(row, mode.along * (impulse * body.inverse_mass));
+            moving.accelerate(other_row, mode.along * -(impulse * partner.inverse_mass));
         }
-        moving.spin_up(row, lever.moment.scale(body.inverse_inertia) * impulse);
-        moving.spin_up(other_row, lever.other.scale(partner.inverse_inertia) * -impulse);
+        moving.spin_up(row, mode.moment.scale(body.inverse_inertia) * impulse);
+        moving.spin_up(other_row, mode.other.scale(partner.inverse_inertia) * -impulse);
     } else {
         if LINE {
-            rate = rate + lever.along.dot(velocity);
+            rate = rate + mode.along.dot(velocity);
         }
-        let impulse = less - lever.impulse * rate;
+        let impulse = less - mode.impulse * rate;
         if LINE {
-            moving.accelerate(row, lever.along * (impulse * body.inverse_mass));
+            moving.accelerate(row, mode.along * (impulse * body.inverse_mass));
         }
-        moving.spin_up(row, lever.moment.scale(body.inverse_inertia) * impulse);
+        moving.spin_up(row, mode.moment.scale(body.inverse_inertia) * impulse);
     }
 }

@@ -37,7 +37,7 @@ pub(crate) struct HalfKick<'s, S: Space> {
     pub(crate) wrenches: &'s [Wrench<S>],
     pub(crate) diagonals: &'s [Diagonal<S>],
     /// \[m/s\] the change by gravity, `None` where weights are part of the wrenches.
-    pub(crate) fall: Option<S::Vector>,
+    pub(crate) apply_gravity: Option<S::Vector>,
 }
 
 impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
@@ -47,8 +47,8 @@ impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
     fn of(&self, row: usize) -> Option<Increment<P::Space>> {
         let (wrench, diagonal) = (self.wrenches.get(row)?, self.diagonals.get(row)?);
         let mut kick = diagonal.increment(wrench.force, wrench.torque, P::Real::HALF);
-        if let Some(fall) = self.fall {
-            kick.linear = kick.linear + fall;
+        if let Some(apply_gravity) = self.apply_gravity {
+            kick.linear = kick.linear + apply_gravity;
         }
         Some(kick)
     }

@@ -22,8 +22,8 @@ mod far;
 mod joints;
 mod kick;
 mod laws;
-mod lever;
-mod levers;
+mod mode;
+mod modes;
 mod motion;
 mod moving;
 mod near;
@@ -34,14 +34,14 @@ mod shares;
 mod strength;
 
 pub use crate::elements::share::Share;
-pub use crate::record::Direction;
+pub use crate::force_pair::Direction;
 pub(crate) use far::{Far, Held as FarHeld};
 pub(crate) use joints::sweep_joints;
 pub(crate) use kick::{HalfKick, KeptKick, NoKick};
 pub(crate) use laws::LawsKnown;
 use laws::sweep_laws;
-pub use lever::Lever;
-pub(crate) use levers::{find, weigh};
+pub use mode::DampingMode;
+pub(crate) use modes::{find, weigh};
 pub(crate) use motion::Pose;
 pub(crate) use near::Held;
 pub(crate) use pass::Sweep;
@@ -58,8 +58,10 @@ use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, Law, ModelRef, Terms};
-use crate::pose::{CountOf, End, MOST_ARMS, Placed, Places, Spot, held_turns, placed, twist_of};
-use crate::real::{Real, Truth as _};
+use crate::pose::{
+    CountOf, End, MAX_ARMS, Placed, Places, Spot, held_turns, placed, torsion_angle_of,
+};
+use crate::real::{Mask as _, Real};
 use crate::space::{Linear as _, Vector as _};
 
 /// How a scheme treats dampers.
@@ -160,7 +162,7 @@ fn sweep_group<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
 ) {
     let Some(first) = group.damper.row() else { return };
     if T::TSDAS && group.law == Law::Tsda && group.clearance.row().is_none() {
-        return sweep_stars::<P, T, K, REVERSE>(model, sweep, group, first, moving);
+        return sweep_triples::<P, T, K, REVERSE>(model, sweep, group, first, moving);
     }
     let places = sweep.places;
     let elements = group.elements();
@@ -174,7 +176,7 @@ fn sweep_group<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
             continue;
         };
         let coefficient = engaged(model, &element, whole);
-        let idle = P::Real::truth(T::CLEARANCES) & coefficient.equals(P::Real::ZERO);
+        let idle = P::Real::mask(T::CLEARANCES) & coefficient.equals(P::Real::ZERO);
         if idle.all() {
             continue;
         }
@@ -210,7 +212,9 @@ fn each_direction<P: Geometry, T: Terms<P>, const REVERSE: bool>(
     mut visit: impl FnMut(Direction<P::Space>),
 ) {
     let group = element.group;
-    let Some((mut directions, count)) = model.damped(group.law, &element.stretch) else { return };
+    let Some((mut directions, count)) = model.damped(group.law, &element.deformation) else {
+        return;
+    };
     if (T::REVOLUTES || T::UNIVERSALS) && REVERSE {
         each_turn::<P, T, REVERSE>(model, places, element, &mut visit);
     }
@@ -263,7 +267,7 @@ type Damped<'s, P, R> = (&'s Spot<P>, (&'s R, &'s Share<R>));
 /// The spring triples of a group without clearance: the two bodies' velocities stay in registers until the last
 /// element.
 #[inline(always)]
-fn sweep_stars<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
+fn sweep_triples<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     group: &Group,
@@ -272,47 +276,48 @@ fn sweep_stars<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
 ) {
     let places = sweep.places;
     // A run-time count and a single loop body: unrolled it takes more flash and is no faster.
-    let arms = (group.arms as usize).clamp(1, MOST_ARMS);
+    let arms = (group.arms as usize).clamp(1, MAX_ARMS);
     let end_a = End::new(model, places, group.a, None);
     let end_b = End::new(model, places, group.b, None);
     let mut pair = new_pair(model, sweep, [group.a, group.b], moving);
-    let stars = group.stars as usize;
-    let (blocks, per_block) = if group.shared { (1, stars) } else { (stars, 1) };
+    let triples = group.triples as usize;
+    let (blocks, per_block) = if group.shared { (1, triples) } else { (triples, 1) };
     for i in 0..blocks {
         let block = per_block * if REVERSE { blocks - 1 - i } else { i };
-        let first = group.tips(block);
+        let first = group.endpoints(block);
         let Some(points @ [first, ..]) = model.points.get(first..first + arms) else { break };
-        let mut tips = [end_b.place(first); MOST_ARMS];
-        for (tip, point) in tips.iter_mut().zip(points).skip(1) {
-            *tip = end_b.place(point);
+        let mut endpoints = [end_b.place(first); MAX_ARMS];
+        for (endpoint, point) in endpoints.iter_mut().zip(points).skip(1) {
+            *endpoint = end_b.place(point);
         }
         for i in 0..per_block {
-            let star = block + if REVERSE { per_block - 1 - i } else { i };
-            let damper = damper + star * arms;
+            let triple = block + if REVERSE { per_block - 1 - i } else { i };
+            let damper = damper + triple * arms;
             let (Some(centre), Some(dampers), Some(shares)) = (
-                model.points.get(group.centre(star)),
+                model.points.get(group.centre(triple)),
                 model.dampers.get(damper..damper + arms),
                 sweep.shares.get(damper..damper + arms),
             ) else {
                 break;
             };
             let (centre, arm_a) = end_a.place(centre);
-            let mut element = |((tip, arm_b), (&coefficient, share)): Damped<'_, P, P::Real>| {
-                let d = P::displacement(&centre, tip);
-                let u = d * d.dot(d).sqrt().reciprocal_or_zero();
-                let mut moments = [P::Moment::ZERO; 2];
-                if pair.has(0) {
-                    moments[0] = end_a.moment_to_axes(arm_a.cross(u));
-                }
-                if pair.has(1) {
-                    moments[1] = end_b.moment_to_axes(arm_b.cross(u));
-                }
-                let damper = sweep.damper::<REVERSE>(coefficient, share);
-                let idle = P::Real::truth(false);
-                pair.damp::<P, K>(&Direction { along: u, moments }, damper, idle);
-            };
+            let mut element =
+                |((endpoint, arm_b), (&coefficient, share)): Damped<'_, P, P::Real>| {
+                    let d = P::displacement(&centre, endpoint);
+                    let u = d * d.dot(d).sqrt().reciprocal_or_zero();
+                    let mut moments = [P::Moment::ZERO; 2];
+                    if pair.has(0) {
+                        moments[0] = end_a.moment_to_axes(arm_a.cross(u));
+                    }
+                    if pair.has(1) {
+                        moments[1] = end_b.moment_to_axes(arm_b.cross(u));
+                    }
+                    let damper = sweep.damper::<REVERSE>(coefficient, share);
+                    let idle = P::Real::mask(false);
+                    pair.damp::<P, K>(&Direction { along: u, moments }, damper, idle);
+                };
             let dampers = dampers.iter().zip(shares);
-            let elements = tips.get(..arms).unwrap_or_default().iter().zip(dampers);
+            let elements = endpoints.get(..arms).unwrap_or_default().iter().zip(dampers);
             if REVERSE {
                 elements.rev().for_each(&mut element);
             } else {
@@ -335,7 +340,7 @@ fn engaged<P: Geometry, T: Terms<P>>(
         return damping;
     }
     let Some(law) = model.element(element.group.law, element.index) else { return damping };
-    let extension = law.extension(&element.stretch);
+    let extension = law.extension(&element.deformation);
     clearance::engaged(damping, extension, clearance)
 }
 
@@ -353,7 +358,7 @@ fn torsion<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     let known = (direction, model.dampers.get(row), sweep.shares.get(row));
     let (Some(direction), Some(&coefficient), Some(share)) = known else { return };
     let mut pair = new_pair(model, sweep, [spring.a, spring.b], moving);
-    let idle = P::Real::truth(false);
+    let idle = P::Real::mask(false);
     pair.damp::<P, K>(&direction, sweep.damper::<REVERSE>(coefficient, share), idle);
     pair.store::<P>(moving);
 }
@@ -368,8 +373,8 @@ fn torsion_direction<P: Geometry, T: Terms<P>>(
     turns: CountOf<P>,
     bodies: &[BodyState<P>],
 ) -> Option<Direction<P::Space>> {
-    let twist = twist_of::<P>(spring, bodies, turns)?;
-    let world = End::new(model, places, spring.a, None).moment_to_world(twist.gradient);
+    let torsion_angle = torsion_angle_of::<P>(spring, bodies, turns)?;
+    let world = End::new(model, places, spring.a, None).moment_to_world(torsion_angle.gradient);
     let moments = [moment(places, spring.a, world), moment(places, spring.b, world)];
     Some(Direction { along: P::Vector::ZERO, moments })
 }

@@ -4,17 +4,17 @@
 //! passes of a step have code of their own.
 
 use crate::body::{BodyState, Increment};
-use crate::damping::lever::Lever;
-use crate::damping::levers::{fixed, held};
+use crate::damping::mode::DampingMode;
+use crate::damping::modes::{fixed, held};
 use crate::damping::near::{Held, hold, near};
 use crate::damping::{each_direction, torsion_direction};
+use crate::force_pair::Direction;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::{Instant, Laws as _};
 use crate::model::{ModelRef, StatesIn, Terms};
 use crate::pose::{Places, held_turns, placed};
-use crate::real::{Real, Truth as _};
-use crate::record::Direction;
+use crate::real::{Mask as _, Real};
 use crate::space::{Linear as _, Moment as _, Space};
 
 /// The response of two bodies to a unit impulse along a damper.
@@ -26,7 +26,7 @@ pub(super) struct Motion<S: Space> {
     pub(super) rate: S::Real,
     coefficient: S::Real,
     /// The lanes in which the impulse moves anything.
-    pub(super) known: <S::Real as Real>::Truth,
+    pub(super) known: <S::Real as Real>::Mask,
 }
 
 /// The mount of a damper: groups in order, then torsion springs, then laws.
@@ -61,7 +61,7 @@ pub(crate) struct Pose<'s, 'm, P: Geometry, T: Terms<P>> {
     /// Revolution counts of torsion springs, memories of laws.
     pub(crate) memories: (&'s [i32], &'s StatesIn<P, T>),
     /// The joints' damping modes, which represent their dampers; empty where dampers act one by one.
-    pub(crate) levers: &'s [Lever<P>],
+    pub(crate) modes: &'s [DampingMode<P>],
 }
 
 impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
@@ -132,22 +132,22 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         mount: Mount,
         mut visit: impl FnMut(usize, P::Real, P::Real, &Direction<P::Space>),
     ) {
-        let Self { model, places, bodies, memories: (turns, states), levers } = *self;
+        let Self { model, places, bodies, memories: (turns, states), modes } = *self;
         let one = P::Real::ONE;
         match mount {
             Mount::Group(group) => {
                 let Some(group) = model.groups.get(group) else { return };
                 let Some(first) = group.damper.row() else { return };
-                if let Some(ends) = fixed::<P, T>(group).filter(|_| !levers.is_empty()) {
-                    for (i, lever) in held(group, levers).iter().enumerate() {
-                        visit(first + i, one, one, &lever.direction(places, ends, group.a));
+                if let Some(ends) = fixed::<P, T>(group).filter(|_| !modes.is_empty()) {
+                    for (i, mode) in held(group, modes).iter().enumerate() {
+                        visit(first + i, one, one, &mode.direction(places, ends, group.a));
                     }
                     return;
                 }
                 for i in 0..group.elements() {
                     let Some(&coefficient) = model.dampers.get(first + i) else { return };
                     let Some(element) = placed(model, places, (0, group), i) else { return };
-                    let directions = model.damped(group.law, &element.stretch);
+                    let directions = model.damped(group.law, &element.deformation);
                     let (_, turns) = held_turns(model, places, group, element.index);
                     let count = directions.map_or(1, |(_, count)| count + turns);
                     let part = one / P::Real::from_i32(count as i32);
@@ -192,7 +192,7 @@ impl<S: Space> Motion<S> {
             increments: [Increment::default(); 2],
             rate: S::Real::ZERO,
             coefficient,
-            known: S::Real::truth(true),
+            known: S::Real::mask(true),
         };
         let ends = bodies.into_iter().zip(direction.moments).zip([-S::Real::ONE, S::Real::ONE]);
         for (((body, moment), sign), increment) in ends.zip(&mut motion.increments) {

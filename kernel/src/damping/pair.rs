@@ -4,11 +4,11 @@
 
 use crate::damping::kick::Kick;
 use crate::damping::moving::Moving;
+use crate::force_pair::Direction;
 use crate::geometry::Geometry;
 use crate::laws::Inner;
 use crate::model::{ModelRef, Terms};
-use crate::real::{Real, Truth as _};
-use crate::record::Direction;
+use crate::real::{Mask as _, Real};
 use crate::space::{Linear as _, Moment as _, Space};
 
 /// The constants of a damper apart from its direction.
@@ -191,7 +191,7 @@ impl<S: Space> Pair<S> {
         &mut self,
         direction: &Direction<S>,
         damper: Damper<S::Real>,
-        idle: <S::Real as Real>::Truth,
+        idle: <S::Real as Real>::Mask,
     ) {
         self.push::<P, K>(direction, idle, None, |inverse, rate, kick| {
             let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
@@ -213,7 +213,7 @@ impl<S: Space> Pair<S> {
         limits: Limits<S::Real>,
         inner: Option<(S::Real, &mut Inner<S::Real>)>,
     ) {
-        self.push::<P, K>(direction, S::Real::truth(false), inner, |inverse, rate, kick| {
+        self.push::<P, K>(direction, S::Real::mask(false), inner, |inverse, rate, kick| {
             damper.impulse(K::KNOWN, [inverse, rate, kick], limits)
         });
     }
@@ -227,7 +227,7 @@ impl<S: Space> Pair<S> {
     >(
         &mut self,
         direction: &Direction<S>,
-        idle: <S::Real as Real>::Truth,
+        idle: <S::Real as Real>::Mask,
         inner: Option<(S::Real, &mut Inner<S::Real>)>,
         impulse: impl FnOnce(S::Real, S::Real, S::Real) -> S::Real,
     ) {

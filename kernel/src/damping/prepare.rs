@@ -8,8 +8,8 @@ use crate::attitude::Attitude as _;
 use crate::body::BodyState;
 use crate::damping::joints::anew;
 use crate::damping::kick::Kick;
-use crate::damping::lever::{Kind, Lever, Stop};
-use crate::damping::levers::{LARGEST, counts};
+use crate::damping::mode::{DampingMode, Kind, Stop};
+use crate::damping::modes::{LARGEST, counts};
 use crate::damping::{Share, Sweep, engaged};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -24,23 +24,23 @@ pub(crate) fn prepare<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     bodies: &[BodyState<P>],
-    (levers, stops): (&mut [Lever<P>], u16),
+    (modes, stops): (&mut [DampingMode<P>], u16),
     reverse: bool,
 ) {
     if !sweep.is_of(model, bodies) {
         return;
     }
     for number in 0..usize::from(stops) {
-        let Some(&Lever { stop, .. }) = levers.get(number) else { break };
+        let Some(&DampingMode { stop, .. }) = modes.get(number) else { break };
         let row = usize::from(stop.row);
-        let (Some(own), Some(shares)) = (levers.get_mut(row..), sweep.shares.get(row..)) else {
+        let (Some(own), Some(shares)) = (modes.get_mut(row..), sweep.shares.get(row..)) else {
             break;
         };
         // Not filtered before: the match's jump table would have entries for impossible cases.
         match stop.kind {
             Kind::Ground => {
                 if !reverse {
-                    told(sweep, &stop, own);
+                    reported(sweep, &stop, own);
                 }
             }
             Kind::Joint => {
@@ -62,13 +62,13 @@ pub(crate) fn prepare<P: Geometry, T: Terms<P>, K: Kick<P>>(
                 }
             }
             Kind::Raw => {
-                if let (Some(lever), Some(share)) = (own.first_mut(), shares.first()) {
-                    line(model, sweep, &stop, (lever, share));
+                if let (Some(mode), Some(share)) = (own.first_mut(), shares.first()) {
+                    line(model, sweep, &stop, (mode, share));
                 }
             }
             Kind::Torsion if T::TORSIONS => {
-                if let (Some(lever), Some(share)) = (own.first_mut(), shares.first()) {
-                    twist(model, sweep, &stop, bodies, (lever, share));
+                if let (Some(mode), Some(share)) = (own.first_mut(), shares.first()) {
+                    torsion_angle(model, sweep, &stop, bodies, (mode, share));
                 }
             }
             Kind::Torsion => {}
@@ -76,9 +76,9 @@ pub(crate) fn prepare<P: Geometry, T: Terms<P>, K: Kick<P>>(
                 if let Some(group) = model.groups.get(usize::from(stop.of))
                     && T::CLEARANCES
                     && group.clearance.row().is_some()
-                    && let Some(lever) = levers.get_mut(number)
+                    && let Some(mode) = modes.get_mut(number)
                 {
-                    lever.stop.count = u8::from(touches(model, sweep, group));
+                    mode.stop.count = u8::from(touches(model, sweep, group));
                 }
             }
         }
@@ -100,14 +100,18 @@ fn touches<P: Geometry, T: Terms<P>, K: Kick<P>>(
 
 /// Includes the kick in the modes of a joint to the ground.
 #[inline(always)]
-fn told<P: Geometry, K: Kick<P>>(sweep: &Sweep<'_, P, K>, stop: &Stop, levers: &mut [Lever<P>]) {
+fn reported<P: Geometry, K: Kick<P>>(
+    sweep: &Sweep<'_, P, K>,
+    stop: &Stop,
+    modes: &mut [DampingMode<P>],
+) {
     let row = usize::from(stop.ends[0]);
     let (Some(frame), Some(kick)) = (sweep.places.frames.get(row), sweep.kick.of(row)) else {
         return;
     };
     let pushed = P::to_body(frame, kick.linear);
-    for lever in levers.iter_mut().take(stop.count.into()) {
-        lever.linked[0] = lever.along.dot(pushed) + lever.moment.dot(kick.angular);
+    for mode in modes.iter_mut().take(stop.count.into()) {
+        mode.linked[0] = mode.along.dot(pushed) + mode.moment.dot(kick.angular);
     }
 }
 
@@ -118,7 +122,7 @@ fn hold<P: Geometry, T: Terms<P>, K: Kick<P>, const N: usize>(
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
     bodies: &[BodyState<P>],
-    (levers, shares): (&mut [Lever<P>], &[Share<P::Real>]),
+    (modes, shares): (&mut [DampingMode<P>], &[Share<P::Real>]),
 ) {
     let [row, other_row] = stop.ends.map(usize::from);
     let frames = sweep.places.frames;
@@ -131,7 +135,7 @@ fn hold<P: Geometry, T: Terms<P>, K: Kick<P>, const N: usize>(
     ) else {
         return;
     };
-    let (Some(levers), Some(shares)) = (levers.first_chunk_mut::<N>(), shares.first_chunk::<N>())
+    let (Some(modes), Some(shares)) = (modes.first_chunk_mut::<N>(), shares.first_chunk::<N>())
     else {
         return;
     };
@@ -150,8 +154,8 @@ fn hold<P: Geometry, T: Terms<P>, K: Kick<P>, const N: usize>(
     macro_rules! see {
         ($($i:literal)*) => {$(
             if $i < N {
-                let lever = &mut levers[$i];
-                lever.other = (lever.moment + apart.cross(lever.along)).of_columns(axes);
+                let mode = &mut modes[$i];
+                mode.other = (mode.moment + apart.cross(mode.along)).of_columns(axes);
                 anew();
             }
         )*};
@@ -160,14 +164,14 @@ fn hold<P: Geometry, T: Terms<P>, K: Kick<P>, const N: usize>(
     macro_rules! ready {
         ($i:literal: $($j:literal)*) => {
             if $i < N {
-                let other = levers[$i].other;
+                let other = modes[$i].other;
                 let turn = other.scale(partner.inverse_inertia);
-                let rate = levers[$i].rate + other.dot(turn);
-                $(levers[$i].linked[$j] = levers[$i].still[$j] + levers[$j].other.dot(turn);)*
-                let lever = &mut levers[$i];
-                let kicked = lever.along.dot(pushed) + lever.moment.dot(kick.angular)
+                let rate = modes[$i].rate + other.dot(turn);
+                $(modes[$i].linked[$j] = modes[$i].still[$j] + modes[$j].other.dot(turn);)*
+                let mode = &mut modes[$i];
+                let kicked = mode.along.dot(pushed) + mode.moment.dot(kick.angular)
                     - other.dot(partner_kick.angular);
-                lever.weigh(&shares[$i], sweep.h, rate, kicked);
+                mode.weigh(&shares[$i], sweep.h, rate, kicked);
                 anew();
             }
         };
@@ -186,7 +190,7 @@ fn line<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
-    (lever, share): (&mut Lever<P>, &Share<P::Real>),
+    (mode, share): (&mut DampingMode<P>, &Share<P::Real>),
 ) {
     let ends = stop.ends.map(BodyIndex);
     let Some(group) = model.groups.get(usize::from(stop.of)) else { return };
@@ -207,37 +211,37 @@ fn line<P: Geometry, T: Terms<P>, K: Kick<P>>(
     let ((a, arm), (b, other_arm)) = (own.place(a), other.place(b));
     let d = P::displacement(&a, &b);
     let along = d * d.dot(d).sqrt().reciprocal_or_zero();
-    lever.along = along;
-    lever.moment = own.moment_to_axes(arm.cross(along));
+    mode.along = along;
+    mode.moment = own.moment_to_axes(arm.cross(along));
     let mut inverse_mass = body.inverse_mass;
-    let mut rate = lever.moment.dot(lever.moment.scale(body.inverse_inertia));
-    let mut kicked = lever.moment.dot(kick.angular);
+    let mut rate = mode.moment.dot(mode.moment.scale(body.inverse_inertia));
+    let mut kicked = mode.moment.dot(kick.angular);
     let mut pushed = kick.linear;
     if let Some(partner) = model.bodies.get(ends[1].row())
         && let Some(kick) = sweep.kick.of(ends[1].row())
     {
-        lever.other = other.moment_to_axes(other_arm.cross(along));
+        mode.other = other.moment_to_axes(other_arm.cross(along));
         inverse_mass = inverse_mass + partner.inverse_mass;
-        rate = rate + lever.other.dot(lever.other.scale(partner.inverse_inertia));
-        kicked = kicked - lever.other.dot(kick.angular);
+        rate = rate + mode.other.dot(mode.other.scale(partner.inverse_inertia));
+        kicked = kicked - mode.other.dot(kick.angular);
         pushed = pushed - kick.linear;
     }
     rate = rate + along.dot(along) * inverse_mass;
-    weigh(sweep, (lever, share), coefficient, rate, kicked + along.dot(pushed));
+    weigh(sweep, (mode, share), coefficient, rate, kicked + along.dot(pushed));
     if T::INPUTS {
-        let ground = lever.impulse * along.dot(other.velocity);
-        lever.less = lever.less.map(|less| less + ground);
+        let ground = mode.impulse * along.dot(other.velocity);
+        mode.less = mode.less.map(|less| less + ground);
     }
 }
 
 /// The mode of a torsion spring: moments along the gradient of its torsion angle.
 #[inline(always)]
-fn twist<P: Geometry, T: Terms<P>, K: Kick<P>>(
+fn torsion_angle<P: Geometry, T: Terms<P>, K: Kick<P>>(
     model: &ModelRef<'_, P, T>,
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
     bodies: &[BodyState<P>],
-    (lever, share): (&mut Lever<P>, &Share<P::Real>),
+    (mode, share): (&mut DampingMode<P>, &Share<P::Real>),
 ) {
     let row = usize::from(stop.row);
     let (Some(spring), Some(&coefficient)) =
@@ -269,21 +273,21 @@ fn twist<P: Geometry, T: Terms<P>, K: Kick<P>>(
         let kicked = sweep.kick.of(end.row()).map(|kick| kick.angular);
         (moment, moment.dot(turn), moment.dot(kicked.unwrap_or(P::Moment::ZERO)))
     });
-    lever.moment = own.0;
-    lever.other = other.0;
-    weigh(sweep, (lever, share), coefficient, own.1 + other.1, own.2 - other.2);
+    mode.moment = own.0;
+    mode.other = other.0;
+    weigh(sweep, (mode, share), coefficient, own.1 + other.1, own.2 - other.2);
 }
 
 /// Weights the single mode of a spring with its coefficient. Without a direction, 1/μ = 0, it does nothing.
 #[inline(always)]
 fn weigh<P: Geometry, K: Kick<P>>(
     sweep: &Sweep<'_, P, K>,
-    (lever, share): (&mut Lever<P>, &Share<P::Real>),
+    (mode, share): (&mut DampingMode<P>, &Share<P::Real>),
     coefficient: P::Real,
     rate: P::Real,
     kicked: P::Real,
 ) {
     let (strength, largest) = (sweep.h * coefficient, P::Real::from_f64(LARGEST));
     let h = if strength * rate < largest { strength } else { largest / rate };
-    lever.weigh(share, h, rate, kicked);
+    mode.weigh(share, h, rate, kicked);
 }

@@ -3,8 +3,8 @@
 //! `(model, state) => c/μ per group and torsion spring` \[1/s\], the rate at which a damper alone would stop its two
 //! bodies. For choosing a step; a step does not use it.
 
-use crate::damping::lever::Lever;
-use crate::damping::levers::find;
+use crate::damping::mode::DampingMode;
+use crate::damping::modes::find;
 use crate::damping::motion::{Motion, Mount, Pose};
 use crate::damping::near::Held;
 use crate::model::{FrameOf, ModelOwner, RealOf};
@@ -66,13 +66,13 @@ fn look<M: ModelOwner>(
     let mut frames = model.per_body(FrameOf::<M>::default());
     place_bodies::<M::Precision>(bodies, frames.as_mut());
     let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
-    let mut levers = model.per_damper(Lever::default());
+    let mut modes = model.per_damper(DampingMode::default());
     if joint_wise {
-        find(&view, places, RealOf::<M>::ZERO, levers.as_mut());
+        find(&view, places, RealOf::<M>::ZERO, modes.as_mut());
     }
-    let levers = if joint_wise { levers.as_ref() } else { &[] };
+    let modes = if joint_wise { modes.as_ref() } else { &[] };
     let memories = (state.turns.as_ref(), &state.laws);
-    let pose = Pose { model: &view, places, bodies, memories, levers };
+    let pose = Pose { model: &view, places, bodies, memories, modes };
     let one = RealOf::<M>::ONE;
     let crossing = RealOf::<M>::from_f64(0.25 * CROSSING);
     let mut held = model.per_body(Held::default());

@@ -4,7 +4,7 @@
 //! with its loop in [`crate::forces`] and a field of [`crate::energy::Energy`].
 
 use crate::elements::point_bushing::PointBushing;
-use crate::elements::point_law::{PointLaw, Stretch, Turning};
+use crate::elements::point_law::{Deformation, PointLaw, Turning};
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::revolute::Revolute;
 use crate::elements::tsda::Tsda;
@@ -87,8 +87,8 @@ macro_rules! of_law {
 impl<S: Space> Element<'_, S> {
     /// See [`PointLaw::extension`].
     #[inline(always)]
-    pub fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
-        of_law!(self, law => PointLaw::extension(*law, stretch))
+    pub fn extension(&self, deformation: &Deformation<S::Vector>) -> S::Real {
+        of_law!(self, law => PointLaw::extension(*law, deformation))
     }
 
     /// \[N/m\] its stiffness; of a revolute joint the radial one.
@@ -99,18 +99,22 @@ impl<S: Space> Element<'_, S> {
 
     /// See [`PointLaw::energy`].
     #[inline(always)]
-    pub fn energy(&self, stretch: &Stretch<S::Vector>, clearance: Option<S::Real>) -> S::Real {
-        of_law!(self, law => PointLaw::energy(*law, stretch, clearance))
+    pub fn energy(
+        &self,
+        deformation: &Deformation<S::Vector>,
+        clearance: Option<S::Real>,
+    ) -> S::Real {
+        of_law!(self, law => PointLaw::energy(*law, deformation, clearance))
     }
 
     /// See [`PointLaw::tangent`].
     #[inline(always)]
     pub fn tangent(
         &self,
-        stretch: &Stretch<S::Vector>,
+        deformation: &Deformation<S::Vector>,
         arm: S::Vector,
         add: &mut impl FnMut(S::Real, S::Vector),
     ) -> Turning<S::Vector> {
-        of_law!(self, law => PointLaw::tangent(*law, stretch, arm, add))
+        of_law!(self, law => PointLaw::tangent(*law, deformation, arm, add))
     }
 }

@@ -4,7 +4,7 @@
 //! points coincide. The damper's force need not be along d: while the points are apart the pair has a torque
 //! `d × c·v_rel`, so a damped bushing conserves linear momentum, but angular momentum only up to d.
 
-use crate::elements::point_law::{PointLaw, Stretch, Turning};
+use crate::elements::point_law::{Deformation, PointLaw, Turning};
 use crate::real::Real;
 use crate::space::{Linear, Vector};
 
@@ -43,30 +43,35 @@ impl<R: Real> PointBushing<R> {
 impl<V: Vector> PointLaw<V> for PointBushing<V::Real> {
     /// `|d|` \[m\].
     #[inline(always)]
-    fn extension(&self, stretch: &Stretch<V>) -> V::Real {
-        let d = stretch.displacement;
+    fn extension(&self, deformation: &Deformation<V>) -> V::Real {
+        let d = deformation.displacement;
         d.dot(d).sqrt()
     }
 
     /// A point bushing has no clearance.
     #[inline]
-    fn energy(&self, stretch: &Stretch<V>, _: Option<V::Real>) -> V::Real {
-        let d = stretch.displacement;
+    fn energy(&self, deformation: &Deformation<V>, _: Option<V::Real>) -> V::Real {
+        let d = deformation.displacement;
         V::Real::HALF * self.stiffness * d.dot(d)
     }
 
     /// Along the world's axes.
     #[inline(always)]
-    fn damped(_: &Stretch<V>) -> ([V; 3], usize) {
+    fn damped(_: &Deformation<V>) -> ([V; 3], usize) {
         (V::axes(), V::DIMENSION)
     }
 
     /// k in every direction, and the effect of the force on a rotating lever arm.
-    fn tangent(&self, stretch: &Stretch<V>, _: V, add: &mut impl FnMut(V::Real, V)) -> Turning<V> {
+    fn tangent(
+        &self,
+        deformation: &Deformation<V>,
+        _: V,
+        add: &mut impl FnMut(V::Real, V),
+    ) -> Turning<V> {
         for u in V::axes().into_iter().take(V::DIMENSION) {
             add(self.stiffness, u);
         }
-        Turning::of_force(stretch.displacement * self.stiffness)
+        Turning::of_force(deformation.displacement * self.stiffness)
     }
 }
 
@@ -82,6 +87,6 @@ mod tests {
         assert_eq!(bushing.force(d), Vec3::new(4.0, -8.0, 12.0));
         let f = bushing.damped_force(2.0, d, Vec3::new(1.0, 0.0, -1.0));
         assert_eq!(f, Vec3::new(6.0, -8.0, 10.0));
-        assert!((bushing.energy(&Stretch::of(d), None) - 0.5 * 40.0 * 0.14).abs() < 1e-15);
+        assert!((bushing.energy(&Deformation::of(d), None) - 0.5 * 40.0 * 0.14).abs() < 1e-15);
     }
 }

@@ -8,7 +8,7 @@ use crate::space::Vector;
 
 /// An element at a pose, world axes.
 #[derive(Clone, Copy, Debug)]
-pub struct Stretch<V: Vector> {
+pub struct Deformation<V: Vector> {
     /// \[m\] from its first point to its second; for a line from the foot to the point.
     pub displacement: V,
     /// \[1\] the direction of its line or axis; 0 where the law has none.
@@ -16,33 +16,37 @@ pub struct Stretch<V: Vector> {
     /// \[1\] excess of the axial over the radial stiffness; revolute joints only.
     pub ratio: V::Real,
     /// \[m\] the axis error of a joint, at its lever arm.
-    pub lean: V::Real,
+    pub axis_error: V::Real,
 }
 
-impl<V: Vector> Stretch<V> {
+impl<V: Vector> Deformation<V> {
     /// For a law without a line or an axis.
     #[inline(always)]
     pub fn of(displacement: V) -> Self {
         let zero = V::Real::ZERO;
-        Self { displacement, direction: V::ZERO, ratio: zero, lean: zero }
+        Self { displacement, direction: V::ZERO, ratio: zero, axis_error: zero }
     }
 }
 
 /// What energies, damper passes, sensors and frequencies need from a law.
 pub trait PointLaw<V: Vector> {
     /// \[m\] the difference to the element's free length.
-    fn extension(&self, stretch: &Stretch<V>) -> V::Real;
+    fn extension(&self, deformation: &Deformation<V>) -> V::Real;
 
     /// \[J\] stored energy, beyond a clearance \[m\] if there is one.
-    fn energy(&self, stretch: &Stretch<V>, clearance: Option<V::Real>) -> V::Real;
+    fn energy(&self, deformation: &Deformation<V>, clearance: Option<V::Real>) -> V::Real;
 
     /// The directions in which its damper acts, and their number.
-    fn damped(stretch: &Stretch<V>) -> ([V; 3], usize);
+    fn damped(deformation: &Deformation<V>) -> ([V; 3], usize);
 
     /// Its tangent as springs, `add(κ \[N/m\], direction)`, that act on a body at the end of `arm` \[m\], and the
     /// effect of its force on a rotation of the body.
-    fn tangent(&self, stretch: &Stretch<V>, arm: V, add: &mut impl FnMut(V::Real, V))
-    -> Turning<V>;
+    fn tangent(
+        &self,
+        deformation: &Deformation<V>,
+        arm: V,
+        add: &mut impl FnMut(V::Real, V),
+    ) -> Turning<V>;
 }
 
 /// The effect of an element's force on a rotation of a body.
@@ -69,7 +73,7 @@ impl<V: Vector> Turning<V> {
 /// The geometric stiffness of a tension \[N\] along `displacement`: |T|/L along both normals, and the effect of its
 /// force on a rotation.
 #[inline(always)]
-pub(crate) fn taut<V: Vector>(
+pub(crate) fn geometric_stiffness<V: Vector>(
     tension: V::Real,
     displacement: V,
     add: &mut impl FnMut(V::Real, V),

@@ -8,7 +8,7 @@
 //! whose `ė` is not along e conserves angular momentum only up to e.
 
 use crate::elements::clearance::{beyond, engaged};
-use crate::elements::point_law::{PointLaw, Stretch, Turning};
+use crate::elements::point_law::{Deformation, PointLaw, Turning};
 use crate::real::{Real, choose};
 use crate::space::{Linear as _, Space, Vector};
 
@@ -69,7 +69,7 @@ impl<S: Space> PointOnLine<S> {
     /// is one.
     #[inline(always)]
     pub fn force(&self, e: S::Vector, clearance: Option<S::Real>) -> S::Vector {
-        let smooth = S::Real::truth(clearance.is_none()) & self.free_length.equals(S::Real::ZERO);
+        let smooth = S::Real::mask(clearance.is_none()) & self.free_length.equals(S::Real::ZERO);
         choose!(S::Real, smooth, e * self.stiffness, {
             let length = e.dot(e).sqrt();
             let tension = self.stiffness * beyond(length - self.free_length, clearance);
@@ -94,20 +94,20 @@ impl<S: Space> PointOnLine<S> {
 impl<S: Space> PointLaw<S::Vector> for PointOnLine<S> {
     /// `|e| − L0` \[m\].
     #[inline(always)]
-    fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
-        self.beyond_free(stretch.displacement)
+    fn extension(&self, deformation: &Deformation<S::Vector>) -> S::Real {
+        self.beyond_free(deformation.displacement)
     }
 
     #[inline]
-    fn energy(&self, stretch: &Stretch<S::Vector>, clearance: Option<S::Real>) -> S::Real {
-        let extension = beyond(self.extension(stretch), clearance);
+    fn energy(&self, deformation: &Deformation<S::Vector>, clearance: Option<S::Real>) -> S::Real {
+        let extension = beyond(self.extension(deformation), clearance);
         S::Real::HALF * self.stiffness * extension * extension
     }
 
     /// Along the line's normals.
     #[inline(always)]
-    fn damped(stretch: &Stretch<S::Vector>) -> ([S::Vector; 3], usize) {
-        let [n, m] = stretch.direction.normals();
+    fn damped(deformation: &Deformation<S::Vector>) -> ([S::Vector; 3], usize) {
+        let [n, m] = deformation.direction.normals();
         ([n, m, S::Vector::ZERO], S::Vector::DIMENSION - 1)
     }
 
@@ -115,23 +115,23 @@ impl<S: Space> PointLaw<S::Vector> for PointOnLine<S> {
     /// rotates, rotation and slide are coupled: both get a spring, with the lever arm as the weighting length.
     fn tangent(
         &self,
-        stretch: &Stretch<S::Vector>,
+        deformation: &Deformation<S::Vector>,
         arm: S::Vector,
         add: &mut impl FnMut(S::Real, S::Vector),
     ) -> Turning<S::Vector> {
-        let (e, line) = (stretch.displacement, stretch.direction);
+        let (e, line) = (deformation.displacement, deformation.direction);
         let inverse = e.dot(e).sqrt().reciprocal_or_zero();
-        let force = (self.stiffness * self.extension(stretch)).abs();
+        let force = (self.stiffness * self.extension(deformation)).abs();
         let isotropic = self.free_length == S::Real::ZERO;
         let [n, m] =
             if isotropic { line.normals() } else { [e * inverse, line.across(e * inverse)] };
         add(self.stiffness, n);
         add(if isotropic { self.stiffness } else { force * inverse }, m);
-        let reach = arm.dot(arm).sqrt();
+        let elongation = arm.dot(arm).sqrt();
         if force > S::Real::ZERO {
-            add(force * reach.reciprocal_or_zero(), line);
+            add(force * elongation.reciprocal_or_zero(), line);
         }
-        Turning::about_any_axis(S::Real::TWO * force * reach)
+        Turning::about_any_axis(S::Real::TWO * force * elongation)
     }
 }
 
@@ -146,10 +146,10 @@ mod tests {
         let line = PointOnLine::<f64>::from_f64(n.to_f64(), 500.0, 0.0);
         let projection = Projection::new(n * 3.0, n);
         assert!((projection.slide - 3.0).abs() < 1e-15);
-        assert!(line.energy(&Stretch::of(projection.deflection), None) < 1e-27);
+        assert!(line.energy(&Deformation::of(projection.deflection), None) < 1e-27);
         let aside = Projection::new(n * 3.0 + Vec3::new(0.2, 0.0, 0.0), n);
         assert!((line.force(aside.deflection, None).x - 100.0).abs() < 1e-12);
-        assert!((line.energy(&Stretch::of(aside.deflection), None) - 10.0).abs() < 1e-12);
+        assert!((line.energy(&Deformation::of(aside.deflection), None) - 10.0).abs() < 1e-12);
     }
 
     #[test]
@@ -157,7 +157,8 @@ mod tests {
         let n = Vec3::new(1.0, 0.0, 0.0);
         let line = PointOnLine::<f64>::from_f64(n.to_f64(), 500.0, 0.01);
         let d = Vec3::new(0.7, 0.012, -0.005);
-        let at = |d: Vec3<f64>| line.energy(&Stretch::of(Projection::new(d, n).deflection), None);
+        let at =
+            |d: Vec3<f64>| line.energy(&Deformation::of(Projection::new(d, n).deflection), None);
         let force = line.force(Projection::new(d, n).deflection, None).to_f64();
         for (axis, force) in force.into_iter().enumerate() {
             let mut step = [0.0; 3];

@@ -6,7 +6,7 @@
 //! `½·k·(d·w(d) + |l' − l|²)`: with α = 0 that of two point bushings of k/2 at the ends of both axes, at lower cost.
 //! Smooth everywhere, without a root or a division; linear and angular momentum are conserved, damped or not.
 
-use crate::elements::point_law::{PointLaw, Stretch, Turning};
+use crate::elements::point_law::{Deformation, PointLaw, Turning};
 use crate::real::Real;
 use crate::space::{Linear as _, Moment as _, Space, Vector};
 
@@ -82,26 +82,26 @@ impl<S: Space> Revolute<S> {
 impl<S: Space> PointLaw<S::Vector> for Revolute<S> {
     /// \[m\] of the point and the axes together, `√(d·d + |l' − l|²)`.
     #[inline]
-    fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
-        let (d, lean) = (stretch.displacement, stretch.lean);
-        (d.dot(d) + lean * lean).sqrt()
+    fn extension(&self, deformation: &Deformation<S::Vector>) -> S::Real {
+        let (d, axis_error) = (deformation.displacement, deformation.axis_error);
+        (d.dot(d) + axis_error * axis_error).sqrt()
     }
 
     /// A revolute joint of bushings has no clearance.
     #[inline]
-    fn energy(&self, stretch: &Stretch<S::Vector>, _: Option<S::Real>) -> S::Real {
-        let Stretch { displacement: d, direction: n, ratio, lean } = *stretch;
+    fn energy(&self, deformation: &Deformation<S::Vector>, _: Option<S::Real>) -> S::Real {
+        let Deformation { displacement: d, direction: n, ratio, axis_error } = *deformation;
         let along = n.dot(d);
-        let squares = d.dot(d) + (ratio - S::Real::ONE) * (along * along) + lean * lean;
+        let squares = d.dot(d) + (ratio - S::Real::ONE) * (along * along) + axis_error * axis_error;
         S::Real::HALF * self.stiffness * squares
     }
 
     /// Along the axis, with a length that gives the axial strength, and along its normals; the dampers that align the
     /// axis are moments and are visited separately.
     #[inline(always)]
-    fn damped(stretch: &Stretch<S::Vector>) -> ([S::Vector; 3], usize) {
-        let [n, m] = stretch.direction.normals();
-        ([stretch.direction * stretch.ratio.sqrt(), n, m], S::Vector::DIMENSION)
+    fn damped(deformation: &Deformation<S::Vector>) -> ([S::Vector; 3], usize) {
+        let [n, m] = deformation.direction.normals();
+        ([deformation.direction * deformation.ratio.sqrt(), n, m], S::Vector::DIMENSION)
     }
 
     /// k radially and (1 + α·l²)·k axially, and the effect of the force on a rotating lever arm. The larger axial
@@ -110,20 +110,20 @@ impl<S: Space> PointLaw<S::Vector> for Revolute<S> {
     /// their torque.
     fn tangent(
         &self,
-        stretch: &Stretch<S::Vector>,
+        deformation: &Deformation<S::Vector>,
         arm: S::Vector,
         add: &mut impl FnMut(S::Real, S::Vector),
     ) -> Turning<S::Vector> {
-        let Stretch { displacement: d, direction: axis, ratio, lean } = *stretch;
-        let reach = arm.dot(arm).sqrt();
+        let Deformation { displacement: d, direction: axis, ratio, axis_error } = *deformation;
+        let elongation = arm.dot(arm).sqrt();
         let tension = (self.stiffness * (ratio - S::Real::ONE) * axis.dot(d)).abs();
         for n in axis.normals() {
-            add(self.stiffness + tension * reach.reciprocal_or_zero(), n);
+            add(self.stiffness + tension * elongation.reciprocal_or_zero(), n);
         }
         add(self.stiffness * ratio, axis);
         let length = d.dot(d).sqrt();
-        let turned = length * reach + lean * self.lever();
-        let rest = self.stiffness * turned + tension * (S::Real::TWO * reach + length);
+        let turned = length * elongation + axis_error * self.lever();
+        let rest = self.stiffness * turned + tension * (S::Real::TWO * elongation + length);
         Turning::about_any_axis(rest)
     }
 }
@@ -138,10 +138,10 @@ mod tests {
         Revolute::from_f64(40.0, 12.0, [[0.0, 0.3, 0.4], [0.0, 0.3, 0.4]])
     }
 
-    fn stretch(d: Vec3<f64>, levers: [Vec3<f64>; 2]) -> Stretch<Vec3<f64>> {
+    fn deformation(d: Vec3<f64>, levers: [Vec3<f64>; 2]) -> Deformation<Vec3<f64>> {
         let [a, b] = levers;
-        let lean = (b - a).dot(b - a).sqrt();
-        Stretch { direction: a * 2.0, ratio: 4.0, lean, ..Stretch::of(d) }
+        let axis_error = (b - a).dot(b - a).sqrt();
+        Deformation { direction: a * 2.0, ratio: 4.0, axis_error, ..Deformation::of(d) }
     }
 
     #[test]
@@ -150,7 +150,7 @@ mod tests {
         let (levers, d) = (revolute.levers, Vec3::new(0.1, -0.2, 0.3));
         let force = revolute.force(d, levers[0]).to_f64();
         for (axis, force) in Vec3::axes().into_iter().zip(force) {
-            let energy = |by: f64| revolute.energy(&stretch(d + axis * by, levers), None);
+            let energy = |by: f64| revolute.energy(&deformation(d + axis * by, levers), None);
             let gradient = (energy(1e-6) - energy(-1e-6)) / 2e-6;
             assert!((gradient - force).abs() < 1e-7, "{gradient} {force}");
         }
@@ -166,7 +166,7 @@ mod tests {
             let energy = |angle: f64| {
                 let turn = Quaternion { w: 1.0, v: axis * (0.5 * angle) };
                 let turned = [turn.rotation().to_world(levers[0]), levers[1]];
-                revolute.energy(&stretch(Vec3::ZERO, turned), None)
+                revolute.energy(&deformation(Vec3::ZERO, turned), None)
             };
             let gradient = (energy(1e-6) - energy(-1e-6)) / 2e-6;
             assert!((gradient + torque).abs() < 1e-7, "{gradient} {torque}");
@@ -177,7 +177,7 @@ mod tests {
     fn directions_of_the_damper_add_up_to_its_force() {
         let revolute = revolute();
         let (v, lever) = (Vec3::new(1.0, 2.0, -0.5), revolute.levers[0]);
-        let at_rest = stretch(Vec3::ZERO, revolute.levers);
+        let at_rest = deformation(Vec3::ZERO, revolute.levers);
         let (directions, count) = Revolute::<f64>::damped(&at_rest);
         let sum = directions[..count].iter().fold(Vec3::ZERO, |sum, u| sum + *u * (7.0 * u.dot(v)));
         let gap = sum - revolute.damped_force(7.0, Vec3::ZERO, v, lever);

@@ -36,7 +36,7 @@ pub struct TorsionSpring<S: Space> {
 
 /// A torsion angle and its gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Twist<S: Space> {
+pub struct TorsionAngle<S: Space> {
     /// \[rad\] unwrapped torsion angle θ of B in A since t = 0.
     pub angle: S::Real,
     /// \[1\] gradient g of the angle with respect to a rotation of B, A's axes.
@@ -45,13 +45,13 @@ pub struct Twist<S: Space> {
 
 /// The smallest `w² + (v·n)²` at which a torsion angle is defined: B is then rotated by almost half a revolution about
 /// an axis normal to n, and the length of the gradient is about a thousand.
-pub const LEAST_TWIST_NORM: f64 = 1e-6;
+pub const LEAST_TORSION_ANGLE_NORM: f64 = 1e-6;
 
-/// \[1\] [`Twist::gradient`] from the unit axis in A and in B, in any common axes: `(n + m)/(1 + n·m)`. Where it is
+/// \[1\] [`TorsionAngle::gradient`] from the unit axis in A and in B, in any common axes: `(n + m)/(1 + n·m)`. Where it is
 /// undefined its length is limited.
 #[inline(always)]
 pub(crate) fn gradient_between<M: Linear>(of_a: M, of_b: M) -> M {
-    let least = M::Real::from_f64(2.0 * LEAST_TWIST_NORM);
+    let least = M::Real::from_f64(2.0 * LEAST_TORSION_ANGLE_NORM);
     let norm = M::Real::ONE + of_a.dot(of_b);
     let norm = M::Real::pick(norm.less_than(least), least, norm);
     (of_a + of_b) * (M::Real::ONE / norm)
@@ -115,13 +115,17 @@ impl<S: Space> TorsionSpring<S> {
         let (w, s) = turn.about(self.axis);
         let norm = w * w + s * s;
         // Written so that NaN is undefined, too.
-        let norm = norm.only_where(S::Real::from_f64(LEAST_TWIST_NORM).at_most(norm))?;
+        let norm = norm.only_where(S::Real::from_f64(LEAST_TORSION_ANGLE_NORM).at_most(norm))?;
         Some(SinceStart { turn, w, s, norm })
     }
 
     /// The torsion angle of a rotation with the revolution count `turns`.
     #[inline(always)]
-    pub fn twist(&self, since: &SinceStart<S>, turns: <S::Real as Real>::Count) -> Twist<S> {
+    pub fn torsion_angle(
+        &self,
+        since: &SinceStart<S>,
+        turns: <S::Real as Real>::Count,
+    ) -> TorsionAngle<S> {
         let (w, s) = since.wound(turns);
         let two = S::Real::TWO;
         let principal = two * atan2(s, w);
@@ -131,20 +135,25 @@ impl<S: Space> TorsionSpring<S> {
             principal,
             S::Real::from_count(turns) * (two * S::Real::PI) + principal
         );
-        Twist { angle, gradient: since.gradient(self.axis) }
+        TorsionAngle { angle, gradient: since.gradient(self.axis) }
     }
 
     /// Torque on B \[N·m\] in A's axes without damping.
     #[inline(always)]
-    pub fn torque(&self, twist: &Twist<S>) -> S::Moment {
-        twist.gradient * (self.preload - self.stiffness * twist.angle)
+    pub fn torque(&self, torsion_angle: &TorsionAngle<S>) -> S::Moment {
+        torsion_angle.gradient * (self.preload - self.stiffness * torsion_angle.angle)
     }
 
     /// Torque on B \[N·m\] in A's axes including the damper; `rate` is `ω_B − ω_A` in A's axes.
     #[inline(always)]
-    pub fn damped_torque(&self, damping: S::Real, twist: &Twist<S>, rate: S::Moment) -> S::Moment {
-        let spring = self.preload - self.stiffness * twist.angle;
-        twist.gradient * (spring - damping * rate.dot(twist.gradient))
+    pub fn damped_torque(
+        &self,
+        damping: S::Real,
+        torsion_angle: &TorsionAngle<S>,
+        rate: S::Moment,
+    ) -> S::Moment {
+        let spring = self.preload - self.stiffness * torsion_angle.angle;
+        torsion_angle.gradient * (spring - damping * rate.dot(torsion_angle.gradient))
     }
 
     /// \[N·m\] an upper bound of the effect of its torque on a rotation of either body, in any direction, `½·|τ|·|g|²`
@@ -193,14 +202,18 @@ mod tests {
                 let angle = direction * 0.01 * f64::from(i);
                 // Between two updates of the count a stage may be well ahead without meeting the cut.
                 let stage = turned([0.0, 0.0, 1.0], angle + direction * 2.5);
-                let looked = spring.twist(&spring.since_start(stage).unwrap(), turns);
+                let looked = spring.torsion_angle(&spring.since_start(stage).unwrap(), turns);
                 assert!((looked.angle - angle - direction * 2.5).abs() < 1e-12);
                 let pose = turned([0.0, 0.0, 1.0], angle);
                 let since = spring.since_start(pose).unwrap();
                 turns = since.settled(turns);
-                let twist = spring.twist(&since, turns);
-                assert!((twist.angle - angle).abs() < 1e-12, "{} {angle}", twist.angle);
-                assert!((twist.gradient.z - 1.0).abs() < 1e-12);
+                let torsion_angle = spring.torsion_angle(&since, turns);
+                assert!(
+                    (torsion_angle.angle - angle).abs() < 1e-12,
+                    "{} {angle}",
+                    torsion_angle.angle
+                );
+                assert!((torsion_angle.gradient.z - 1.0).abs() < 1e-12);
             }
             assert_eq!(turns, if direction > 0.0 { 6 } else { -6 });
         }
@@ -212,15 +225,15 @@ mod tests {
         let spring = spring(n);
         let pose = turned([0.6, 0.64, 0.48], 1.1).product(turned(n, 0.4));
         let since = spring.since_start(pose).unwrap();
-        let twist = spring.twist(&since, since.settled(0));
+        let torsion_angle = spring.torsion_angle(&since, since.settled(0));
         for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
             // A rotation of B by a small vector in A's axes multiplies from the left.
             let at = |e: f64| {
                 let since = spring.since_start(turned(axis, e).product(pose)).unwrap();
-                spring.twist(&since, since.settled(0)).angle
+                spring.torsion_angle(&since, since.settled(0)).angle
             };
             let rate = (at(1e-5) - at(-1e-5)) / 2e-5;
-            let along = Vec3::from_f64(axis).dot(twist.gradient);
+            let along = Vec3::from_f64(axis).dot(torsion_angle.gradient);
             assert!((rate - along).abs() < 1e-9, "{rate} {along}");
         }
     }
@@ -241,10 +254,10 @@ mod tests {
         let pose = turned([0.0, 0.0, 1.0], 0.7);
         let since = spring.since_start(pose).unwrap();
         turns = since.settled(turns);
-        let twist = spring.twist(&since, turns);
+        let torsion_angle = spring.torsion_angle(&since, turns);
         let slope = (spring.energy(0.7 + 1e-6) - spring.energy(0.7 - 1e-6)) / 2e-6;
-        assert!((spring.torque(&twist).z + slope).abs() < 1e-8);
-        let damped = spring.damped_torque(2.0, &twist, Vec3::new(9.0, 9.0, 0.25));
-        assert!((damped.z - (spring.torque(&twist).z - 0.5)).abs() < 1e-12);
+        assert!((spring.torque(&torsion_angle).z + slope).abs() < 1e-8);
+        let damped = spring.damped_torque(2.0, &torsion_angle, Vec3::new(9.0, 9.0, 0.25));
+        assert!((damped.z - (spring.torque(&torsion_angle).z - 0.5)).abs() < 1e-12);
     }
 }

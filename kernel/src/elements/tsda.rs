@@ -7,8 +7,8 @@
 //! precision 1e-100 m) it falls to 0 with the distance; above it is unchanged.
 
 use crate::elements::clearance::{beyond, engaged};
-use crate::elements::point_law::{PointLaw, Stretch, Turning, taut};
-use crate::reach::{AtRest, Reach};
+use crate::elements::point_law::{Deformation, PointLaw, Turning, geometric_stiffness};
+use crate::elongation::{AtRest, Elongation};
 use crate::real::{Constant, Real};
 use crate::space::{Linear, Vector};
 
@@ -46,24 +46,28 @@ impl<R: Real> Tsda<R> {
     /// Force on A \[N\] without damping, beyond a clearance \[m\] if there is one.
     #[inline(always)]
     pub fn force<V: Linear<Real = R>>(&self, d: V, clearance: Option<R>) -> V {
-        self.pull(&Reach { way: d, more: None }, clearance)
+        self.pull(&Elongation { way: d, more: None }, clearance)
     }
 
     /// [`Self::force`] for a given displacement with its length data.
     #[inline(always)]
-    pub(crate) fn pull<V: Linear<Real = R>>(&self, reach: &Reach<V>, clearance: Option<R>) -> V {
-        let d = reach.way;
+    pub(crate) fn pull<V: Linear<Real = R>>(
+        &self,
+        elongation: &Elongation<V>,
+        clearance: Option<R>,
+    ) -> V {
+        let d = elongation.way;
         let length = length(d);
         let inverse = R::ONE / length;
-        let tension = self.stiffness * beyond(self.extended(length, reach), clearance);
+        let tension = self.stiffness * beyond(self.extended(length, elongation), clearance);
         d * (tension * inverse)
     }
 
     /// Several lengths \[m\].
     #[inline(always)]
-    fn lengths<V: Linear<Real = R>, const N: usize>(reaches: &[Reach<V>; N]) -> [R; N] {
+    fn lengths<V: Linear<Real = R>, const N: usize>(reaches: &[Elongation<V>; N]) -> [R; N] {
         let mut squares = [R::ZERO; N];
-        for (square, Reach { way, .. }) in squares.iter_mut().zip(reaches) {
+        for (square, Elongation { way, .. }) in squares.iter_mut().zip(reaches) {
             *square = way.dot(*way) + R::constant(LEAST_SQUARE);
         }
         // A planar joint has little else to compute meanwhile.
@@ -74,7 +78,7 @@ impl<R: Real> Tsda<R> {
     #[inline(always)]
     pub(crate) fn pulls<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
-        reaches: &[Reach<V>; N],
+        reaches: &[Elongation<V>; N],
     ) -> [V; N] {
         let lengths = Self::lengths(reaches);
         let mut pulls = [V::ZERO; N];
@@ -120,8 +124,8 @@ impl<R: Real> Tsda<R> {
 
     /// \[m\] the length minus the free length.
     #[inline(always)]
-    fn extended<V: Linear<Real = R>>(&self, length: R, reach: &Reach<V>) -> R {
-        match reach.more {
+    fn extended<V: Linear<Real = R>>(&self, length: R, elongation: &Elongation<V>) -> R {
+        match elongation.more {
             None => length - self.free_length,
             // L² − L0² = (L − L0)·(L + L0).
             Some(more) => more * (R::ONE / (length + self.free_length)),
@@ -133,7 +137,7 @@ impl<R: Real> Tsda<R> {
     pub(crate) fn damped_pulls<V: Linear<Real = R>, const N: usize>(
         springs: &[Self; N],
         dampings: &[R; N],
-        reaches: &[Reach<V>; N],
+        reaches: &[Elongation<V>; N],
         rates: &[V; N],
     ) -> [V; N] {
         let lengths = Self::lengths(reaches);
@@ -156,7 +160,7 @@ impl<R: Real> Tsda<R> {
         v_rel: V,
         clearance: Option<R>,
     ) -> V {
-        self.damped_pull(damping, &Reach { way: d, more: None }, v_rel, clearance)
+        self.damped_pull(damping, &Elongation { way: d, more: None }, v_rel, clearance)
     }
 
     /// [`Self::damped_force`] for a given displacement with its length data.
@@ -164,14 +168,14 @@ impl<R: Real> Tsda<R> {
     pub(crate) fn damped_pull<V: Linear<Real = R>>(
         &self,
         damping: R,
-        reach: &Reach<V>,
+        elongation: &Elongation<V>,
         v_rel: V,
         clearance: Option<R>,
     ) -> V {
-        let d = reach.way;
+        let d = elongation.way;
         let length = length(d);
         let inverse = R::ONE / length;
-        let extension = self.extended(length, reach);
+        let extension = self.extended(length, elongation);
         let damping = engaged(damping, extension, clearance);
         let tension =
             self.stiffness * beyond(extension, clearance) + damping * (d.dot(v_rel) * inverse);
@@ -182,30 +186,35 @@ impl<R: Real> Tsda<R> {
 impl<V: Vector> PointLaw<V> for Tsda<V::Real> {
     /// `L − L0` \[m\].
     #[inline(always)]
-    fn extension(&self, stretch: &Stretch<V>) -> V::Real {
-        let d = stretch.displacement;
+    fn extension(&self, deformation: &Deformation<V>) -> V::Real {
+        let d = deformation.displacement;
         d.dot(d).sqrt() - self.free_length
     }
 
     #[inline]
-    fn energy(&self, stretch: &Stretch<V>, clearance: Option<V::Real>) -> V::Real {
-        let extension = beyond(self.extension(stretch), clearance);
+    fn energy(&self, deformation: &Deformation<V>, clearance: Option<V::Real>) -> V::Real {
+        let extension = beyond(self.extension(deformation), clearance);
         V::Real::HALF * self.stiffness * extension * extension
     }
 
     /// Along its line.
     #[inline(always)]
-    fn damped(stretch: &Stretch<V>) -> ([V; 3], usize) {
-        let d = stretch.displacement;
+    fn damped(deformation: &Deformation<V>) -> ([V; 3], usize) {
+        let d = deformation.displacement;
         let along = d * d.dot(d).sqrt().reciprocal_or_zero();
         ([along, V::ZERO, V::ZERO], 1)
     }
 
     /// k along its line, and its geometric stiffness; a clearance counts as closed.
-    fn tangent(&self, stretch: &Stretch<V>, _: V, add: &mut impl FnMut(V::Real, V)) -> Turning<V> {
-        let d = stretch.displacement;
+    fn tangent(
+        &self,
+        deformation: &Deformation<V>,
+        _: V,
+        add: &mut impl FnMut(V::Real, V),
+    ) -> Turning<V> {
+        let d = deformation.displacement;
         add(self.stiffness, d * d.dot(d).sqrt().reciprocal_or_zero());
-        taut(self.stiffness * self.extension(stretch), d, add)
+        geometric_stiffness(self.stiffness * self.extension(deformation), d, add)
     }
 }
 
@@ -231,7 +240,7 @@ mod tests {
             let at = |s: f64| {
                 let mut p = d.to_f64();
                 p[axis] += s;
-                SPRING.energy(&Stretch::of(Vec3::from_f64(p)), None)
+                SPRING.energy(&Deformation::of(Vec3::from_f64(p)), None)
             };
             // The force on A is +dU/dd, since d grows when A moves against it.
             let gradient = (at(1e-6) - at(-1e-6)) / 2e-6;
@@ -252,7 +261,7 @@ mod tests {
         let at = |length: f64| {
             let d = Vec3::new(0.0, length, 0.0);
             let clearance = Some(0.01);
-            let energy = SPRING.energy(&Stretch::of(d), clearance);
+            let energy = SPRING.energy(&Deformation::of(d), clearance);
             (SPRING.damped_force(3.0, d, rate, clearance).y, energy)
         };
         assert_eq!(at(0.505), (0.0, 0.0));

@@ -6,7 +6,7 @@
 //! `½·k·(d·d + q²)`, so the lever arm ℓ makes a stiffness k·ℓ² against rotation about l × n. Smooth everywhere, without
 //! a root or a division. As for a point bushing, the damper's `c·v_rel` conserves angular momentum only up to d.
 
-use crate::elements::point_law::{PointLaw, Stretch, Turning};
+use crate::elements::point_law::{Deformation, PointLaw, Turning};
 use crate::real::Real as _;
 use crate::space::{Linear as _, Space, Vector as _};
 
@@ -23,14 +23,14 @@ pub struct Universal<S: Space> {
 
 /// The axis error of two axes, world.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lean<S: Space> {
+pub(crate) struct AxisError<S: Space> {
     /// \[m\] `l·n`.
     pub(crate) by: S::Real,
     /// \[m\] `n × l`.
     pub(crate) gradient: S::Moment,
 }
 
-impl<S: Space> Lean<S> {
+impl<S: Space> AxisError<S> {
     #[inline(always)]
     pub(crate) fn new(lever: S::Vector, axis: S::Vector) -> Self {
         Self { by: lever.dot(axis), gradient: axis.cross(lever) }
@@ -57,21 +57,21 @@ impl<S: Space> Universal<S> {
 impl<S: Space> PointLaw<S::Vector> for Universal<S> {
     /// \[m\] of the point and the axes together, `√(d·d + q²)`.
     #[inline]
-    fn extension(&self, stretch: &Stretch<S::Vector>) -> S::Real {
-        let (d, q) = (stretch.displacement, stretch.lean);
+    fn extension(&self, deformation: &Deformation<S::Vector>) -> S::Real {
+        let (d, q) = (deformation.displacement, deformation.axis_error);
         (d.dot(d) + q * q).sqrt()
     }
 
     /// A universal joint has no clearance.
     #[inline]
-    fn energy(&self, stretch: &Stretch<S::Vector>, _: Option<S::Real>) -> S::Real {
-        let (d, q) = (stretch.displacement, stretch.lean);
+    fn energy(&self, deformation: &Deformation<S::Vector>, _: Option<S::Real>) -> S::Real {
+        let (d, q) = (deformation.displacement, deformation.axis_error);
         S::Real::HALF * self.stiffness * (d.dot(d) + q * q)
     }
 
     /// Along the world's axes; the damper that holds the axes is a moment and is visited separately.
     #[inline(always)]
-    fn damped(_: &Stretch<S::Vector>) -> ([S::Vector; 3], usize) {
+    fn damped(_: &Deformation<S::Vector>) -> ([S::Vector; 3], usize) {
         (S::Vector::axes(), S::Vector::DIMENSION)
     }
 
@@ -79,7 +79,7 @@ impl<S: Space> PointLaw<S::Vector> for Universal<S> {
     /// rotating axes. The stiffness that holds the axes is added separately as a moment.
     fn tangent(
         &self,
-        stretch: &Stretch<S::Vector>,
+        deformation: &Deformation<S::Vector>,
         _: S::Vector,
         add: &mut impl FnMut(S::Real, S::Vector),
     ) -> Turning<S::Vector> {
@@ -87,8 +87,8 @@ impl<S: Space> PointLaw<S::Vector> for Universal<S> {
             add(self.stiffness, u);
         }
         let lever = self.lever.dot(self.lever).sqrt();
-        let rest = self.stiffness * (S::Real::TWO * stretch.lean.abs() * lever);
-        Turning { force: stretch.displacement * self.stiffness, rest }
+        let rest = self.stiffness * (S::Real::TWO * deformation.axis_error.abs() * lever);
+        Turning { force: deformation.displacement * self.stiffness, rest }
     }
 }
 
@@ -102,10 +102,10 @@ mod tests {
     fn the_gradient_of_the_lean_is_that_of_its_energy() {
         let universal = Universal::<f64>::from_f64(50.0, [0.2, 0.0, 0.0], [0.6, 0.0, 0.8]);
         let energy = |axis: Vec3<f64>| {
-            let lean = Lean::<f64>::new(universal.lever, axis).by;
-            universal.energy(&Stretch { lean, ..Stretch::of(Vec3::ZERO) }, None)
+            let axis_error = AxisError::<f64>::new(universal.lever, axis).by;
+            universal.energy(&Deformation { axis_error, ..Deformation::of(Vec3::ZERO) }, None)
         };
-        let Lean { by, gradient } = Lean::<f64>::new(universal.lever, universal.axis);
+        let AxisError { by, gradient } = AxisError::<f64>::new(universal.lever, universal.axis);
         assert!((by - 0.12).abs() < 1e-15);
         for (axis, slope) in Vec3::axes().into_iter().zip((gradient * (50.0 * by)).to_f64()) {
             let turned = |angle: f64| {
@@ -121,8 +121,8 @@ mod tests {
     fn a_lean_is_an_extension_at_its_lever() {
         let universal = Universal::<f64>::from_f64(50.0, [0.2, 0.0, 0.0], [0.0, 0.0, 1.0]);
         let displacement = Vec3::new(0.0, 0.03, 0.0);
-        let stretch = Stretch { lean: 0.04, ..Stretch::of(displacement) };
-        assert!((universal.extension(&stretch) - 0.05).abs() < 1e-16);
-        assert!((universal.energy(&stretch, None) - 0.5 * 50.0 * 0.0025).abs() < 1e-16);
+        let deformation = Deformation { axis_error: 0.04, ..Deformation::of(displacement) };
+        assert!((universal.extension(&deformation) - 0.05).abs() < 1e-16);
+        assert!((universal.energy(&deformation, None) - 0.5 * 50.0 * 0.0025).abs() < 1e-16);
     }
 }

@@ -4,9 +4,9 @@
 //! of bodies are stored in 64-bit integers, metres to 2^-57 and unit quaternions to 2^-62; a rotation matrix has 30
 //! fraction bits, and its rounding error is added to the next; a point has 27. A world point is the exact sum of
 //! products, the displacement between two points their exact difference, rounded once to single precision. The centre
-//! of a spring triple is computed relative to its reference position in B ([`crate::reach::AtRest`]). Forces, rates and
+//! of a spring triple is computed relative to its reference position in B ([`crate::elongation::AtRest`]). Forces, rates and
 //! their increments are `f32`, velocities sums of two numbers ([`FixedVelocity`]), also for gravity
-//! ([`Geometry::FALLS`]): laws, damper passes and schemes are those of `f32`.
+//! ([`Geometry::HAS_GRAVITY_STEP`]): laws, damper passes and schemes are those of `f32`.
 //!
 //! Integers have a limited range, see [`LIMITS`]: a model is checked when its plant is created, a state after every
 //! step ([`Cause::Extent`](crate::status::Cause)), and no integer wraps. Constants of models are made by
@@ -28,10 +28,10 @@ pub use rest::Rest;
 pub use turn::FixedTurn;
 pub use velocity::FixedVelocity;
 
+use crate::elongation::{AtRest, Beside, Beyond, Elongation};
 use crate::fixed::number::{exact_product, single_power, square_of, squared, to_f32, to_f64};
 use crate::fixed::place::{difference, fixed, move_by, nearest, single, sum};
 use crate::geometry::{Geometry, Limits};
-use crate::reach::{AtRest, Beside, Beyond, Reach};
 use crate::vector::Vec3;
 
 /// Fixed-point geometry with forces in single precision.
@@ -45,20 +45,20 @@ const NEAR: i32 = 33;
 /// Whether a component of a displacement is below 0.2 m: the sum of three such squares fits.
 #[inline(always)]
 fn is_near(c: i64) -> bool {
-    const MOST: i32 = (1 << (PLACE - 32)) / 5;
-    ((c >> 32) as i32).wrapping_add(MOST) as u32 <= 2 * MOST as u32
+    const MAX: i32 = (1 << (PLACE - 32)) / 5;
+    ((c >> 32) as i32).wrapping_add(MAX) as u32 <= 2 * MAX as u32
 }
 
 /// The displacement beyond the near range. Inlined: a call would cost the near case more.
 #[inline(always)]
-fn far(d: &[i64; 3], free_length: f32) -> Reach<Vec3<f32>> {
+fn far(d: &[i64; 3], free_length: f32) -> Elongation<Vec3<f32>> {
     let way = nearest::<PLACE>(*d);
     // Beyond this the sums of squares overflow, and the displacement itself is as precise.
     if way.dot(way) > 256.0 || free_length > 16.0 {
-        return Reach { way, more: Some(way.dot(way) - free_length * free_length) };
+        return Elongation { way, more: Some(way.dot(way) - free_length * free_length) };
     }
     let more = squared(d).wrapping_sub(square_of(free_length));
-    Reach { way, more: Some(to_f32::<{ 2 * (PLACE - 32) }>(more)) }
+    Elongation { way, more: Some(to_f32::<{ 2 * (PLACE - 32) }>(more)) }
 }
 
 impl Geometry for Fixed {
@@ -109,7 +109,7 @@ impl Geometry for Fixed {
         single::<PLACE>(difference(to.at, from.at))
     }
     #[inline(always)]
-    fn reach(from: &FixedPlace, to: &FixedPlace, free_length: f32) -> Reach<Vec3<f32>> {
+    fn elongation(from: &FixedPlace, to: &FixedPlace, free_length: f32) -> Elongation<Vec3<f32>> {
         let d = difference(to.at, from.at);
         let [x, y, z] = d;
         if is_near(x) & is_near(y) & is_near(z) & (free_length < 0.25) {
@@ -118,7 +118,7 @@ impl Geometry for Fixed {
             let free = (free_length * const { single_power(NEAR) }) as i32;
             let [x, y, z, free] = [x, y, z, free].map(i64::from);
             let more = (x * x + y * y + z * z).wrapping_sub(free * free);
-            return Reach { way, more: Some(to_f32::<{ 2 * NEAR }>(more)) };
+            return Elongation { way, more: Some(to_f32::<{ 2 * NEAR }>(more)) };
         }
         far(&d, free_length)
     }
@@ -126,11 +126,11 @@ impl Geometry for Fixed {
     fn find_rests(
         frame: &FixedPose,
         centre: &FixedPlace,
-        tips: &[FixedPoint],
+        endpoints: &[FixedPoint],
         free_lengths: &[f32],
         rests: &mut [Rest],
     ) {
-        rest::find(frame, centre, tips, free_lengths, rests);
+        rest::find(frame, centre, endpoints, free_lengths, rests);
     }
     #[inline(always)]
     fn apart(a: Option<&FixedPose>, moved: Option<Vec3<f32>>, b: &FixedPose) -> [i64; 3] {
@@ -145,18 +145,18 @@ impl Geometry for Fixed {
     fn beside<const ARMS: usize>(
         apart: &[i64; 3],
         (a, centre): (Option<&FixedPose>, &FixedPoint),
-        (b, tip): (&FixedPose, &FixedPoint),
+        (b, endpoint): (&FixedPose, &FixedPoint),
         rests: &[Rest; ARMS],
     ) -> Beside<Vec3<f32>> {
-        rest::beside(apart, (a, centre), (b, tip), rests)
+        rest::beside(apart, (a, centre), (b, endpoint), rests)
     }
     #[inline(always)]
     fn beyond<const ARMS: usize>(
         (a, centres): (Option<&FixedPose>, [&FixedPoint; 2]),
-        (b, tip): (&FixedPose, &FixedPoint),
+        (b, endpoint): (&FixedPose, &FixedPoint),
         rests: [&[Rest; ARMS]; 2],
     ) -> Beyond<Vec3<f32>> {
-        rest::beyond((a, centres), (b, tip), rests)
+        rest::beyond((a, centres), (b, endpoint), rests)
     }
     #[inline(always)]
     fn at_rest(rest: &Rest) -> AtRest<Vec3<f32>> {
@@ -206,9 +206,9 @@ impl Geometry for Fixed {
     fn accelerate(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.add_to_both(increment);
     }
-    const FALLS: bool = true;
+    const HAS_GRAVITY_STEP: bool = true;
     #[inline(always)]
-    fn fall(stored: &mut FixedVelocity, increment: Vec3<f32>) {
+    fn apply_gravity(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.lost = stored.lost - increment;
     }
     #[inline(always)]
@@ -228,7 +228,7 @@ impl Geometry for Fixed {
     }
     // Converting the time's unit needs no multiplication of its own.
     #[inline(always)]
-    fn fly(position: &mut FixedPlace, velocity: &FixedVelocity, time: f32) {
+    fn advance_position(position: &mut FixedPlace, velocity: &FixedVelocity, time: f32) {
         move_by(position, velocity.sum * (time * const { single_power(PLACE - 32) }));
     }
     #[inline(always)]

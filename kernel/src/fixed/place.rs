@@ -14,7 +14,7 @@ pub(crate) const POINT: i32 = 27;
 
 /// The range of bodies and points. Within a step, between two checks, a body may move 7 drifts beyond: positions are
 /// then below 32 m and displacements between two of them below 64 m, the limit of the integers.
-pub const LIMITS: Limits = Limits { extent: 24.0, reach: 7.0, drift: 0.125, shift: 7.0 };
+pub const LIMITS: Limits = Limits { extent: 24.0, elongation: 7.0, drift: 0.125, shift: 7.0 };
 
 /// The position of a body after a drift beyond the limits: 32 m, from where the drifts of a step cannot return.
 const LOST: i64 = 1 << (PLACE + 5);

@@ -3,12 +3,12 @@
 //! `initial poses => reference position of a triple's centre in B; poses => its offset`. The deflection of a stiff
 //! joint is the difference of positions a metre apart: exact in integers, and rounded once.
 
+use crate::elongation::{AtRest, Beside, Beyond};
 use crate::fixed::number::{single_power, to_f64};
 use crate::fixed::place::{
     FixedPlace, FixedPoint, LIMITS, PLACE, POINT, difference, nearest, single, sum,
 };
 use crate::fixed::pose::FixedPose;
-use crate::reach::{AtRest, Beside, Beyond};
 use crate::vector::Vec3;
 
 /// A TSDA in its reference state, with its part of the triple's data.
@@ -29,7 +29,7 @@ fn within(frame: &FixedPose, place: &FixedPlace) -> [i64; 3] {
     let along = |axis: usize| {
         let sum = x[axis] * dx + y[axis] * dy + z[axis] * dz;
         // 30 bits of the matrix and 57 of the position.
-        let most = (LIMITS.reach as i128) << POINT;
+        let most = (LIMITS.elongation as i128) << POINT;
         (sum >> (30 + PLACE - POINT)).clamp(-most, most) as i64
     };
     [along(0), along(1), along(2)]
@@ -40,17 +40,17 @@ fn within(frame: &FixedPose, place: &FixedPlace) -> [i64; 3] {
 pub(super) fn find(
     frame: &FixedPose,
     centre: &FixedPlace,
-    tips: &[FixedPoint],
+    endpoints: &[FixedPoint],
     free_lengths: &[f32],
     rests: &mut [Rest],
 ) {
-    let Some(first) = tips.first() else { return };
+    let Some(first) = endpoints.first() else { return };
     let at = within(frame, centre);
     let way = Vec3::from_f64(difference(first.at, at).map(|c| to_f64(c, POINT as u32)));
     let less = less(first, &Rest { at: AtRest { way, ..AtRest::default() }, ..Rest::default() });
     let mut near = f64::INFINITY;
-    for ((rest, tip), free_length) in rests.iter_mut().zip(tips).zip(free_lengths) {
-        let way = sum(tip.at, less.map(i64::from)).map(|c| to_f64(c, POINT as u32));
+    for ((rest, endpoint), free_length) in rests.iter_mut().zip(endpoints).zip(free_lengths) {
+        let way = sum(endpoint.at, less.map(i64::from)).map(|c| to_f64(c, POINT as u32));
         let [x, y, z] = way;
         let (square, free) = (x * x + y * y + z * z, f64::from(*free_length));
         rest.at = AtRest {
@@ -67,19 +67,19 @@ pub(super) fn find(
 
 /// The reference position of a triple's centre, negated, from its first endpoint and that leg's reference.
 #[inline(always)]
-pub(super) fn less(tip: &FixedPoint, first: &Rest) -> [i32; 3] {
+pub(super) fn less(endpoint: &FixedPoint, first: &Rest) -> [i32; 3] {
     // A multiple of 2^-27 in single precision is exact.
     let Vec3 { x, y, z } = first.at.way * const { single_power(POINT) };
-    let [a, b, c] = tip.at.map(|c| c as i32);
+    let [a, b, c] = endpoint.at.map(|c| c as i32);
     [(x as i32).wrapping_sub(a), (y as i32).wrapping_sub(b), (z as i32).wrapping_sub(c)]
 }
 
 /// The reference position of a triple's centre, negated.
 #[inline(always)]
-fn less_of<const ARMS: usize>(tip: &FixedPoint, rests: &[Rest; ARMS]) -> [i32; 3] {
+fn less_of<const ARMS: usize>(endpoint: &FixedPoint, rests: &[Rest; ARMS]) -> [i32; 3] {
     match rests.as_slice() {
         [x, y, z] => [x.less, y.less, z.less],
-        [first, ..] => less(tip, first),
+        [first, ..] => less(endpoint, first),
         [] => [0; 3],
     }
 }
@@ -90,7 +90,7 @@ fn less_of<const ARMS: usize>(tip: &FixedPoint, rests: &[Rest; ARMS]) -> [i32; 3
 pub(super) fn beside<const ARMS: usize>(
     apart: &[i64; 3],
     (a, centre): (Option<&FixedPose>, &FixedPoint),
-    (b, tip): (&FixedPose, &FixedPoint),
+    (b, endpoint): (&FixedPose, &FixedPoint),
     rests: &[Rest; ARMS],
 ) -> Beside<Vec3<f32>> {
     let (arm, from_b) = match a {
@@ -100,7 +100,7 @@ pub(super) fn beside<const ARMS: usize>(
         }
         None => (Vec3::ZERO, sum(*apart, centre.at.map(|c| c << (PLACE - POINT)))),
     };
-    let off = b.turned(less_of(tip, rests), from_b);
+    let off = b.turned(less_of(endpoint, rests), from_b);
     Beside { off: single::<PLACE>(off), arm_a: arm, arm_b: nearest::<PLACE>(from_b) }
 }
 
@@ -108,7 +108,7 @@ pub(super) fn beside<const ARMS: usize>(
 #[inline(always)]
 pub(super) fn beyond<const ARMS: usize>(
     (a, [first, second]): (Option<&FixedPose>, [&FixedPoint; 2]),
-    (b, tip): (&FixedPose, &FixedPoint),
+    (b, endpoint): (&FixedPose, &FixedPoint),
     [of_first, of_second]: [&[Rest; ARMS]; 2],
 ) -> Beyond<Vec3<f32>> {
     let way = match a {
@@ -119,8 +119,8 @@ pub(super) fn beyond<const ARMS: usize>(
         }
         None => difference(second.at, first.at).map(|c| c << (PLACE - POINT)),
     };
-    let [x, y, z] = less_of(tip, of_second);
-    let [p, q, r] = less_of(tip, of_first);
+    let [x, y, z] = less_of(endpoint, of_second);
+    let [p, q, r] = less_of(endpoint, of_first);
     let off = b.turned([x.wrapping_sub(p), y.wrapping_sub(q), z.wrapping_sub(r)], way);
     Beyond { off: single::<PLACE>(off), way: nearest::<PLACE>(way) }
 }

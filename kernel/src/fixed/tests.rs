@@ -4,9 +4,9 @@ use crate::attitude::Attitude as _;
 use crate::body::BodyState;
 use crate::elements::tsda::Tsda;
 use crate::index::BodyIndex;
+use crate::model_spec::{ModelSpec, Start};
 use crate::plant::Plant;
 use crate::schemes::Leapfrog;
-use crate::sketch::{Sketch, Start};
 use crate::status::Cause;
 use crate::vector::Quaternion;
 
@@ -185,7 +185,7 @@ fn flight(at: f64, velocity: f64, spin: f64, steps: u64) -> (Result<(), Cause>, 
         angular_velocity: [spin, 0.0, 0.0],
         ..Start::at([0.0, at, 0.0])
     };
-    let model = Sketch::new()
+    let model = ModelSpec::new()
         .gravity([0.0, 0.0, -1e-3])
         .body(1.0, [0.1, 0.2, 0.2], start)
         .model_fixed::<1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0>();
@@ -251,12 +251,12 @@ fn squares_of_ways_beside_free_lengths_are_exact_to_their_units() {
         let to = FixedPlace { at: sum(from.at, FixedPlace::new(d).at) };
         let length = libm::sqrt(d.iter().map(|c| c * c).sum::<f64>());
         let free = (length * (1.0 + 1e-4 * numbers.next().unwrap())) as f32;
-        let reach = Fixed::reach(&from, &to, free);
+        let elongation = Fixed::elongation(&from, &to, free);
         let exact = way_beside(difference(to.at, from.at), free);
-        let beyond = f64::from(reach.more.unwrap()) / (length + f64::from(free));
+        let beyond = f64::from(elongation.more.unwrap()) / (length + f64::from(free));
         let bound = if length < 15.9 { 2.1e-10 + 1e-6 * exact.abs() } else { 3e-7 * length };
         assert!((beyond - exact).abs() < bound, "{d:?}: {beyond:e} {exact:e}");
-        for (way, d) in reach.way.to_f64().into_iter().zip(d) {
+        for (way, d) in elongation.way.to_f64().into_iter().zip(d) {
             assert!((way - d).abs() < 1.2e-10 + 1.2e-7 * d.abs(), "{way} {d}");
         }
     }
@@ -278,13 +278,13 @@ fn stars_from_where_they_rested_pull_as_their_points_do() {
         let scale = [1e-7, 1e-5, 1e-2, 1.0, 20.0][i % 5];
         let mut vector = |scale: f64| core::array::from_fn(|_| numbers.next().unwrap() * scale);
         let (at, local, shift) = (vector(3.0), vector(0.5), vector(scale));
-        let tips: [[f64; 3]; 3] = core::array::from_fn(|_| vector(0.4));
+        let endpoints: [[f64; 3]; 3] = core::array::from_fn(|_| vector(0.4));
         let turn = FixedTurn::from_f64(unit(&mut numbers));
         let frame = Fixed::frame(&FixedPlace::new(at), &turn);
         let (start, _) = Fixed::place(&frame, &FixedPoint::new(local));
-        let tips = tips.map(FixedPoint::new);
+        let endpoints = endpoints.map(FixedPoint::new);
         let mut rests = [Rest::default(); 3];
-        Fixed::find_rests(&frame, &start, &tips, &[0.3; 3], &mut rests);
+        Fixed::find_rests(&frame, &start, &endpoints, &[0.3; 3], &mut rests);
         let centre = FixedPoint { at: rests.map(|rest| -i64::from(rest.less)) };
         let near = difference(centre.at, FixedPoint::new(local).at);
         // Single precision resolves the first displacement, up to 0.9 m.
@@ -296,26 +296,26 @@ fn stars_from_where_they_rested_pull_as_their_points_do() {
         let moved = FixedPlace { at: sum(resting.at, FixedPlace::new(shift).at) };
         let apart = difference(moved.at, frame.position);
         let none = FixedPoint::default();
-        let beside = Fixed::beside(&apart, (None, &none), (&frame, &tips[0]), &rests);
+        let beside = Fixed::beside(&apart, (None, &none), (&frame, &endpoints[0]), &rests);
         let exact = Fixed::displacement(&resting, &moved);
         assert_eq!(beside.off, exact);
         // A separate triple with one point: its reference position is that of the point.
-        let alone = Fixed::beside(&apart, (None, &none), (&frame, &tips[0]), &[rests[0]]);
+        let alone = Fixed::beside(&apart, (None, &none), (&frame, &endpoints[0]), &[rests[0]]);
         assert_eq!(alone, beside);
         let arm = beside.arm_b - nearest::<PLACE>(apart);
         assert!(arm.dot(arm) == 0.0 && beside.arm_a == Vec3::ZERO);
         let off = Fixed::to_body(&frame, beside.off);
         let far = f64::from(off.dot(off)).sqrt();
-        for (tip, rest) in tips.into_iter().zip(rests) {
-            let reach = Fixed::at_rest(&rest).reach(off);
-            let (tip, _) = Fixed::place(&frame, &tip);
-            let way = Fixed::to_world(&frame, reach.way);
-            let exact = Fixed::displacement(&moved, &tip);
+        for (endpoint, rest) in endpoints.into_iter().zip(rests) {
+            let elongation = Fixed::at_rest(&rest).elongation(off);
+            let (endpoint, _) = Fixed::place(&frame, &endpoint);
+            let way = Fixed::to_world(&frame, elongation.way);
+            let exact = Fixed::displacement(&moved, &endpoint);
             let apart = (way - exact).dot(way - exact).sqrt();
             assert!(apart < 2e-7 + 3e-7 * far as f32, "{apart} {far}");
             let length = f64::from(exact.dot(exact)).sqrt();
-            let beyond = f64::from(reach.more.unwrap()) / (length + 0.3_f32 as f64);
-            let exact = way_beside(difference(tip.at, moved.at), 0.3);
+            let beyond = f64::from(elongation.more.unwrap()) / (length + 0.3_f32 as f64);
+            let exact = way_beside(difference(endpoint.at, moved.at), 0.3);
             // The matrix's rounding, and the single-precision resolution of the offset and of the initial distance.
             let bound = 3e-9 + 3e-7 * (far + exact.abs());
             assert!((beyond - exact).abs() < bound, "{far:e}: {beyond:e} {exact:e}");
@@ -327,11 +327,11 @@ fn stars_from_where_they_rested_pull_as_their_points_do() {
 fn a_star_that_lies_far_off_rests_at_a_point_that_a_body_may_have() {
     let frame = Fixed::frame(&FixedPlace::default(), &FixedTurn::default());
     for at in [[20.0, -20.0, 0.0], [24.0; 3], [-24.0; 3]] {
-        let tip = FixedPoint::new([0.1, 0.2, -0.3]);
+        let endpoint = FixedPoint::new([0.1, 0.2, -0.3]);
         let mut rests = [Rest::default(); 3];
-        Fixed::find_rests(&frame, &FixedPlace::new(at), &[tip; 3], &[1.0; 3], &mut rests);
+        Fixed::find_rests(&frame, &FixedPlace::new(at), &[endpoint; 3], &[1.0; 3], &mut rests);
         let centre = rests.map(|rest| f64::from(rest.less) / 27.0_f64.exp2());
-        assert!(centre.iter().all(|c| c.abs() <= LIMITS.reach + 1e-6), "{centre:?}");
+        assert!(centre.iter().all(|c| c.abs() <= LIMITS.elongation + 1e-6), "{centre:?}");
     }
 }
 
@@ -342,23 +342,23 @@ fn a_second_star_is_as_far_beyond_the_first_as_it_is_off() {
     for i in 0..10_000 {
         let mut vector = |scale: f64| core::array::from_fn(|_| numbers.next().unwrap() * scale);
         let [a, b] = [vector(3.0), vector(3.0)].map(FixedPlace::new);
-        let [centres, tips]: [[FixedPoint; 2]; 2] =
+        let [centres, endpoints]: [[FixedPoint; 2]; 2] =
             [0.5, 0.4].map(|scale| [(); 2].map(|()| FixedPoint::new(vector(scale))));
         let turns = [(); 2].map(|()| FixedTurn::from_f64(unit(&mut numbers)));
         let (a, b) = (Fixed::frame(&a, &turns[0]), Fixed::frame(&b, &turns[1]));
         let of_a = if i % 2 == 0 { Some(&a) } else { None };
-        let rests = tips.map(|tip| {
+        let rests = endpoints.map(|endpoint| {
             let mut rests = [Rest::default(); 3];
             let at = FixedPlace::new([0.1, 0.2, 0.3]);
-            Fixed::find_rests(&b, &at, &[tip; 3], &[1.0; 3], &mut rests);
+            Fixed::find_rests(&b, &at, &[endpoint; 3], &[1.0; 3], &mut rests);
             rests
         });
         let apart = Fixed::apart(of_a, None, &b);
-        let [first, second] = [0, 1].map(|star| {
-            Fixed::beside(&apart, (of_a, &centres[star]), (&b, &tips[0]), &rests[star])
+        let [first, second] = [0, 1].map(|triple| {
+            Fixed::beside(&apart, (of_a, &centres[triple]), (&b, &endpoints[0]), &rests[triple])
         });
-        let (ends, stars) = ((of_a, centres.each_ref()), rests.each_ref());
-        let beyond = Fixed::beyond(ends, (&b, &tips[0]), stars);
+        let (ends, triples) = ((of_a, centres.each_ref()), rests.each_ref());
+        let beyond = Fixed::beyond(ends, (&b, &endpoints[0]), triples);
         for (by, beside) in
             [(beyond.off, second.off - first.off), (beyond.way, second.arm_b - first.arm_b)]
         {
@@ -375,11 +375,11 @@ fn a_star_near_its_rest_pulls_as_its_springs_do() {
     for i in 0..30_000 {
         let mut vector =
             |scale: f64| -> [f64; 3] { core::array::from_fn(|_| numbers.next().unwrap() * scale) };
-        let tips: [FixedPoint; 3] = core::array::from_fn(|_| FixedPoint::new(vector(0.4)));
+        let endpoints: [FixedPoint; 3] = core::array::from_fn(|_| FixedPoint::new(vector(0.4)));
         let frame = Fixed::frame(&FixedPlace::default(), &FixedTurn::default());
         let free_lengths: [f32; 3] = [[0.3, 0.1, 0.5], [0.2; 3]][i % 2];
         let mut rests = [Rest::default(); 3];
-        Fixed::find_rests(&frame, &FixedPlace::default(), &tips, &free_lengths, &mut rests);
+        Fixed::find_rests(&frame, &FixedPlace::default(), &endpoints, &free_lengths, &mut rests);
         let off = Vec3::from_f64(vector([1e-7, 1e-4, 0.05][i % 3]));
         let square = off.dot(off);
         if square >= rests[0].near {

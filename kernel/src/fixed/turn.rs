@@ -21,7 +21,7 @@ const LITTLE: i64 = 1 << (BITS - 48);
 /// 1 with 60 fraction bits.
 const ONE: i64 = 1 << 60;
 /// The largest half angle that is applied at once.
-const MOST: f32 = 0.25;
+const MAX: f32 = 0.25;
 
 /// A unit quaternion, 62 fraction bits, scalar first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +67,7 @@ impl FixedTurn {
     pub(crate) fn turn_exactly<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
         let half = whole + rest;
         // The sine is valid up to a half, which no useful step reaches.
-        if half.abs() <= MOST {
+        if half.abs() <= MAX {
             self.turn_a_little::<AXIS>((whole, rest));
         } else {
             self.turn_in_parts::<AXIS>((whole, rest));

@@ -102,7 +102,7 @@ mod tests {
     fn both_words_keep_what_is_below_the_last_digit_of_an_increment() {
         const STEPS: i64 = 100_000;
         let unit = (-60.0_f64).exp2();
-        let (pulls, fall) =
+        let (pulls, apply_gravity) =
             ([0x00ff_ffff_i64 << 26, 0x00c0_0001 << 26, -0x01bf_fffe << 26], 1_i64 << 19);
         let mut velocity = FixedVelocity::from_f64([1.0; 3]);
         let mut exact = 1_i128 << 60;
@@ -110,13 +110,13 @@ mod tests {
             let pull = pulls[step as usize % 3];
             let increment = Vec3::from_f64([pull as f64 * unit; 3]);
             assert_eq!(f64::from(increment.x), pull as f64 * unit);
-            velocity.lost = velocity.lost - Vec3::from_f64([fall as f64 * unit; 3]);
+            velocity.lost = velocity.lost - Vec3::from_f64([apply_gravity as f64 * unit; 3]);
             velocity.add_to_both(increment);
-            exact += i128::from(pull + fall);
+            exact += i128::from(pull + apply_gravity);
             assert!(velocity.lost.x.abs() <= f32::EPSILON / 2.0 * velocity.sum.x.abs());
         }
         let off = (velocity.to_f64()[2] / unit) as i128 - exact;
-        let fallen = i128::from(STEPS * fall);
+        let fallen = i128::from(STEPS * apply_gravity);
         assert!(off.abs() < fallen / 1_000, "{off} of {fallen}");
     }
 

@@ -1,10 +1,10 @@
 //! An element at a pose as springs and dampers of one direction each.
 //!
-//! `(law, stretch, damping, clearance) => directions, each with its stiffness and damping`.
+//! `(law, deformation, damping, clearance) => directions, each with its stiffness and damping`.
 
 use crate::elements::clearance::{beyond, engaged};
 use crate::elements::element::Element;
-use crate::elements::point_law::Stretch;
+use crate::elements::point_law::Deformation;
 use crate::geometry::Geometry;
 use crate::model::{Law, ModelRef, Terms};
 use crate::real::{Real, choose};
@@ -25,7 +25,7 @@ pub(crate) struct Springs<S: Space> {
 pub(crate) fn springs<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     law: &Element<'_, P::Space>,
-    stretch: &Stretch<P::Vector>,
+    deformation: &Deformation<P::Vector>,
     (damping, clearance): (P::Real, Option<P::Real>),
 ) -> Option<Springs<P::Space>> {
     let kind = match law {
@@ -35,11 +35,11 @@ pub(crate) fn springs<P: Geometry, T: Terms<P>>(
         Element::Revolute(_) => Law::Revolute,
         Element::Universal(_) => Law::Universal,
     };
-    let (directions, count) = model.damped(kind, stretch)?;
+    let (directions, count) = model.damped(kind, deformation)?;
     let stiffness = law.stiffness();
     let mut springs = Springs { directions, constants: [[stiffness, damping]; 3], count };
     if clearance.is_some() {
-        let extension = law.extension(stretch);
+        let extension = law.extension(deformation);
         let out = beyond(extension, clearance).equals(P::Real::ZERO);
         let stiffness = choose!(P::Real, out, P::Real::ZERO, stiffness);
         springs.constants = [[stiffness, engaged(damping, extension, clearance)]; 3];
@@ -48,9 +48,9 @@ pub(crate) fn springs<P: Geometry, T: Terms<P>>(
         && !(clearance.is_none() && law.free_length == P::Real::ZERO)
     {
         // Its force is along the deflection; its damper acts across it, too.
-        let e = stretch.displacement;
+        let e = deformation.displacement;
         let along = e * e.dot(e).sqrt().reciprocal_or_zero();
-        springs.directions = [along, stretch.direction.across(along), P::Vector::ZERO];
+        springs.directions = [along, deformation.direction.across(along), P::Vector::ZERO];
         springs.constants[1][0] = P::Real::ZERO;
     }
     Some(springs)

@@ -4,7 +4,7 @@
 //! a force does.
 
 use crate::forces::directions::springs;
-use crate::forces::record::Wrench;
+use crate::forces::force_pair::Wrench;
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
 use crate::pose::{End, Places, placed};
@@ -30,7 +30,7 @@ pub(super) fn push<P: Geometry, T: Terms<P>>(
             };
             let known = (damping, model.clearance(group));
             let law = model.element(group.law, element.index);
-            let springs = law.and_then(|law| springs(model, &law, &element.stretch, known));
+            let springs = law.and_then(|law| springs(model, &law, &element.deformation, known));
             let Some(springs) = springs else { continue };
             let arm = if moved == a { element.arm_b } else { element.arm_a };
             let parts = springs.directions.into_iter().zip(springs.constants);

@@ -6,8 +6,8 @@
 
 use crate::body::BodyState;
 use crate::elements::element::Law;
-use crate::forces::record::{Dampers, Record, Wrench, apply};
-use crate::forces::stars::{grid, pull};
+use crate::forces::force_pair::{Dampers, ForcePair, Wrench, apply};
+use crate::forces::triples::{grid, pull};
 use crate::forces::two_points::TwoPoints;
 use crate::geometry::Geometry;
 use crate::model::{Group, ModelRef, Terms};
@@ -35,12 +35,12 @@ pub(super) const fn may_be<P: Geometry, T: Terms<P>>() -> bool {
 
 /// Whether the groups of a model are uniform, each on a body.
 pub(crate) fn are_in_line<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>) -> bool {
-    let Some((law, stars, arms)) = kind::<P, T>(P::Space::PLANAR) else { return false };
+    let Some((law, triples, arms)) = kind::<P, T>(P::Space::PLANAR) else { return false };
     let is_next = |(i, group): (usize, &Group)| {
-        let (point, element) = (i * (stars + arms), i * stars * arms);
+        let (point, element) = (i * (triples + arms), i * triples * arms);
         group.law == law
-            && (group.stars as usize, group.arms as usize) == (stars, arms)
-            && group.shared == (stars > 1)
+            && (group.triples as usize, group.arms as usize) == (triples, arms)
+            && group.shared == (triples > 1)
             && (group.point as usize, group.element as usize) == (point, element)
             && !group.b.is_world()
     };
@@ -57,8 +57,8 @@ pub(super) fn add<P: Geometry, T: Terms<P>, D: Dampers>(
 ) {
     let at = (places, bodies);
     match kind::<P, T>(P::Space::PLANAR) {
-        Some((Law::Tsda, 1, _)) => add_stars::<P, T, D, 1, 2, 3, 2>(model, rests, at, wrenches),
-        Some((Law::Tsda, _, _)) => add_stars::<P, T, D, 2, 3, 5, 6>(model, rests, at, wrenches),
+        Some((Law::Tsda, 1, _)) => add_triples::<P, T, D, 1, 2, 3, 2>(model, rests, at, wrenches),
+        Some((Law::Tsda, _, _)) => add_triples::<P, T, D, 2, 3, 5, 6>(model, rests, at, wrenches),
         Some((Law::PointBushing, _, _)) => {
             add_pairs::<P, T, D, _>(model, model.bushings, at, wrenches);
         }
@@ -74,11 +74,11 @@ type Where<'s, P> = (Places<'s, P>, &'s [BodyState<P>]);
 
 /// Spring triples with common points of B.
 #[inline(always)]
-fn add_stars<
+fn add_triples<
     P: Geometry,
     T: Terms<P>,
     D: Dampers,
-    const STARS: usize,
+    const TRIPLES: usize,
     const ARMS: usize,
     const POINTS: usize,
     const SPRINGS: usize,
@@ -112,12 +112,12 @@ fn add_stars<
             None
         };
         let parts = (points.as_slice(), springs, rests);
-        let record: Option<Record<_>> = match end_a.body() {
-            Some(a) => pull::<P, T, D, STARS, ARMS>(model, group, parts, &a, &b),
-            None => pull::<P, T, D, STARS, ARMS>(model, group, parts, &end_a.ground(), &b),
+        let force_pair: Option<ForcePair<_>> = match end_a.body() {
+            Some(a) => pull::<P, T, D, TRIPLES, ARMS>(model, group, parts, &a, &b),
+            None => pull::<P, T, D, TRIPLES, ARMS>(model, group, parts, &end_a.ground(), &b),
         };
-        let Some(record) = record else { break };
-        apply(wrenches, group.a.row(), group.b.row(), &record);
+        let Some(force_pair) = force_pair else { break };
+        apply(wrenches, group.a.row(), group.b.row(), &force_pair);
     }
 }
 
@@ -140,11 +140,11 @@ fn add_pairs<P: Geometry, T: Terms<P>, D: Dampers, L: TwoPoints<P>>(
             Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row),
             _ => None,
         };
-        let record = match end_a.body() {
-            Some(a) => element.record(points, damping, &a, &b),
-            None => element.record(points, damping, &end_a.ground(), &b),
+        let force_pair = match end_a.body() {
+            Some(a) => element.force_pair(points, damping, &a, &b),
+            None => element.force_pair(points, damping, &end_a.ground(), &b),
         };
-        apply(wrenches, group.a.row(), group.b.row(), &record);
+        apply(wrenches, group.a.row(), group.b.row(), &force_pair);
     }
 }
 
@@ -155,7 +155,7 @@ mod tests {
     use crate::elements::point_bushing::PointBushing;
     use crate::elements::revolute::Revolute;
     use crate::elements::tsda::Tsda;
-    use crate::forces::record::{At, ExplicitDampers, Memories};
+    use crate::forces::force_pair::{At, ExplicitDampers, Memories};
     use crate::forces::{Evaluation, Instant, evaluate};
     use crate::geometry::F64;
     use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
@@ -195,16 +195,16 @@ mod tests {
     /// A body on the ground and another on it, with the elements of a kind between them.
     macro_rules! assert_same {
         ($geometry:ident, $model:ty, $kind:expr, $tsdas:expr, $bushings:expr, $revolutes:expr) => {{
-            let (law, stars, arms) = $kind;
+            let (law, triples, arms) = $kind;
             let group = |i: u8, a| Group {
                 law,
                 a,
                 b: BodyIndex(u16::from(i)),
-                stars,
+                triples,
                 arms,
-                shared: stars > 1,
-                point: u16::from(i * (stars + arms)),
-                element: u16::from(i * stars * arms),
+                shared: triples > 1,
+                point: u16::from(i * (triples + arms)),
+                element: u16::from(i * triples * arms),
                 damper: if i == 0 { DamperIndex::NONE } else { DamperIndex(0) },
                 clearance: ClearanceIndex::NONE,
             };

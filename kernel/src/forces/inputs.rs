@@ -6,7 +6,7 @@
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
 use crate::elements::torsion_spring::gradient_between;
-use crate::forces::record::{Record, Wrench};
+use crate::forces::force_pair::{ForcePair, Wrench};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{ModelRef, Terms};
@@ -72,10 +72,11 @@ fn add<P: Geometry>(
     places: Places<'_, P>,
     wrenches: &mut [Wrench<P::Space>],
     bodies: [BodyIndex; 2],
-    record: &Record<P::Space>,
+    force_pair: &ForcePair<P::Space>,
 ) {
     let rows = bodies.map(BodyIndex::row);
-    let parts = [(record.force, record.torque_a), (-record.force, -record.torque_b)];
+    let parts =
+        [(force_pair.force, force_pair.torque_a), (-force_pair.force, -force_pair.torque_b)];
     for (row, (force, torque)) in rows.into_iter().zip(parts) {
         if let (Some(wrench), Some(frame)) = (wrenches.get_mut(row), places.frames.get(row)) {
             wrench.force = wrench.force + force;
@@ -107,24 +108,25 @@ pub(crate) fn push<P: Geometry, T: Terms<P>>(
             InputKind::Force { body, point, direction, frame } => {
                 let force = turned(body, frame, direction) * value;
                 let (_, arm) = End::new(model, places, body, None).place(&point);
-                let record = Record { force, torque_a: arm.cross(force), torque_b: zero };
-                add(places, wrenches, bodies, &record);
+                let force_pair = ForcePair { force, torque_a: arm.cross(force), torque_b: zero };
+                add(places, wrenches, bodies, &force_pair);
             }
             InputKind::Torque { body, axis, frame } => {
                 let torque_a = turned_axis(body, frame, axis) * value;
-                let record = Record { force: P::Vector::ZERO, torque_a, torque_b: zero };
-                add(places, wrenches, bodies, &record);
+                let force_pair = ForcePair { force: P::Vector::ZERO, torque_a, torque_b: zero };
+                add(places, wrenches, bodies, &force_pair);
             }
             InputKind::JointTorque { a, b, axes } => {
                 let axis_a = turned_axis(a, LoadFrame::Body, axes[0]);
                 let axis_b = turned_axis(b, LoadFrame::Body, axes[1]);
                 let torque = -(gradient_between(axis_a, axis_b) * value);
-                let record = Record { force: P::Vector::ZERO, torque_a: torque, torque_b: torque };
-                add(places, wrenches, bodies, &record);
+                let force_pair =
+                    ForcePair { force: P::Vector::ZERO, torque_a: torque, torque_b: torque };
+                add(places, wrenches, bodies, &force_pair);
             }
             InputKind::Actuator { .. } => {
-                if let Some(record) = actuator(model, places, input.kind, value) {
-                    add(places, wrenches, bodies, &record);
+                if let Some(force_pair) = actuator(model, places, input.kind, value) {
+                    add(places, wrenches, bodies, &force_pair);
                 }
             }
             InputKind::Signal | InputKind::Anchor { .. } => {}
@@ -139,14 +141,14 @@ fn actuator<P: Geometry, T: Terms<P>>(
     places: Places<'_, P>,
     kind: InputKind<P>,
     value: P::Real,
-) -> Option<Record<P::Space>> {
+) -> Option<ForcePair<P::Space>> {
     let InputKind::Actuator { group, element } = kind else { return None };
     let row = group as usize;
     let element = placed(model, places, (row, model.groups.get(row)?), element as usize)?;
-    let d = element.stretch.displacement;
+    let d = element.deformation.displacement;
     let force = d * (value * d.dot(d).sqrt().reciprocal_or_zero());
     let torque_a = element.arm_a.cross(force);
-    Some(Record { force, torque_a, torque_b: element.arm_b.cross(force) })
+    Some(ForcePair { force, torque_a, torque_b: element.arm_b.cross(force) })
 }
 
 /// A group's `force` \[N\] on its first body including its actuators, world axes.
@@ -159,9 +161,9 @@ pub(crate) fn with_actuators<P: Geometry, T: Terms<P>>(
 ) -> P::Vector {
     for (input, signal) in model.inputs.iter().zip(places.signals) {
         if matches!(input.kind, InputKind::Actuator { group, .. } if group as usize == row)
-            && let Some(record) = actuator(model, places, input.kind, signal.value)
+            && let Some(force_pair) = actuator(model, places, input.kind, signal.value)
         {
-            force = force + record.force;
+            force = force + force_pair.force;
         }
     }
     force

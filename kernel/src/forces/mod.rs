@@ -1,7 +1,7 @@
 //! One force evaluation: visits every element once and sums every body's wrench.
 //!
 //! `(model, pose, velocities, revolution counts, step) => wrenches`. The order of sums, on which the bits depend: a
-//! body starts from its weight, or from zero where a precision applies gravity to velocities ([`Geometry::FALLS`]),
+//! body starts from its weight, or from zero where a precision applies gravity to velocities ([`Geometry::HAS_GRAVITY_STEP`]),
 //! then adds its loads in ascending order, then the records of its groups likewise, then its torsion springs', then
 //! those of its laws, table by table, and last, in body axes, its inputs in ascending order. Within a TSDA group each
 //! distinct point is computed once; the forces on a point are added in the order of its elements; the record's force
@@ -12,24 +12,26 @@
 mod bushing;
 mod directions;
 mod driven;
+mod force_pair;
 mod in_line;
 mod inputs;
 mod lines;
-mod record;
 mod revolute;
 mod springs;
-mod stars;
 mod torsions;
+mod triples;
 mod two_points;
 mod universal;
 
 use crate::body::BodyState;
 pub(crate) use directions::springs;
+pub use force_pair::{
+    At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, ForcePair, Wrench,
+};
+pub(crate) use force_pair::{Memories, apply};
 pub(crate) use in_line::are_in_line;
 pub(crate) use inputs::{Unpushed, push, take_back, with_actuators};
-pub use record::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, Record, Wrench};
-pub(crate) use record::{Memories, apply};
-pub(crate) use stars::find_rests;
+pub(crate) use triples::find_rests;
 
 use crate::elements::gravity;
 use crate::elements::load::LoadFrame;
@@ -76,7 +78,7 @@ pub(crate) struct Evaluation<'s, P: Geometry> {
 /// whole steps).
 ///
 /// # Errors
-/// [`Cause::UndefinedTwist`] names the first torsion spring whose torsion angle is undefined, [`Cause::Undefined`] the
+/// [`Cause::UndefinedTorsionAngle`] names the first torsion spring whose torsion angle is undefined, [`Cause::Undefined`] the
 /// first such law.
 pub fn wrenches<M: ModelOwner>(
     model: &M,
@@ -105,7 +107,7 @@ pub fn wrenches<M: ModelOwner>(
         Memories { turns: turns.as_mut(), laws: &mut laws, at: At::Stage, advance: None },
         Evaluation { frames: frames.as_mut(), wrenches: wrenches.as_mut(), unpushed: &mut [] },
     )?;
-    if M::Precision::FALLS
+    if M::Precision::HAS_GRAVITY_STEP
         && let Some(&gravity) = view.gravity.first()
     {
         for (body, wrench) in view.bodies.iter().zip(wrenches.as_mut()) {
@@ -116,10 +118,10 @@ pub fn wrenches<M: ModelOwner>(
 }
 
 /// One force evaluation: `(model, instant, memories) => frames, wrenches, updated memories`. Without weights where
-/// [`Geometry::FALLS`].
+/// [`Geometry::HAS_GRAVITY_STEP`].
 ///
 /// # Errors
-/// [`Cause::UndefinedTwist`] names the first torsion spring whose torsion angle is undefined, [`Cause::Undefined`] the
+/// [`Cause::UndefinedTorsionAngle`] names the first torsion spring whose torsion angle is undefined, [`Cause::Undefined`] the
 /// first such law.
 // One caller per scheme, which gets only the stepper: arguments in structs cost no stack.
 #[inline(always)]
@@ -136,14 +138,15 @@ pub(crate) fn evaluate<P: Geometry, T: Terms<P>, D: Dampers>(
         place_bodies(bodies, frames);
     }
     let places = Places { frames: &*frames, signals };
-    let weight = if T::GRAVITY && !P::FALLS { model.gravity.first().copied() } else { None };
+    let weight =
+        if T::GRAVITY && !P::HAS_GRAVITY_STEP { model.gravity.first().copied() } else { None };
     start(model, weight, (windows, step), places, wrenches);
     if in_line && in_line::may_be::<P, T>() {
         in_line::add::<P, T, D>(model, places, (bodies, rests), wrenches);
     } else if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
         for group in model.groups {
-            if let Some(record) = record::<P, T, D>(model, places, (bodies, rests), group) {
-                apply(wrenches, group.a.row(), group.b.row(), &record);
+            if let Some(force_pair) = force_pair::<P, T, D>(model, places, (bodies, rests), group) {
+                apply(wrenches, group.a.row(), group.b.row(), &force_pair);
             }
         }
     }
@@ -183,18 +186,18 @@ pub(crate) fn evaluate_out_of_line<P: Geometry, T: Terms<P>, D: Dampers>(
 
 /// The record of one group, `None` where the model lacks a part that it refers to.
 #[inline(always)]
-pub(crate) fn record<P: Geometry, T: Terms<P>, D: Dampers>(
+pub(crate) fn force_pair<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     (bodies, rests): (&[BodyState<P>], &[P::Rest]),
     group: &Group,
-) -> Option<Record<P::Space>> {
+) -> Option<ForcePair<P::Space>> {
     let moving = D::ACT && T::DAMPERS && group.damper.row().is_some();
     let moving = if moving { Some(bodies) } else { None };
     let end_a = End::new(model, places, group.a, moving);
     let end_b = End::new(model, places, group.b, moving);
     match group.law {
-        Law::Tsda if T::TSDAS => stars::stars::<P, T, D>(model, rests, group, &end_a, &end_b),
+        Law::Tsda if T::TSDAS => triples::triples::<P, T, D>(model, rests, group, &end_a, &end_b),
         Law::PointBushing if T::BUSHINGS => {
             bushing::bushings::<P, T, D>(model, group, &end_a, &end_b)
         }
@@ -261,7 +264,7 @@ fn start<P: Geometry, T: Terms<P>>(
         let force = match field {
             Some(gravity) => gravity::weight(body.mass, gravity),
             // Negative zero changes nothing when it is added, and avoids a call that clears memory.
-            None if P::FALLS => -P::Vector::ZERO,
+            None if P::HAS_GRAVITY_STEP => -P::Vector::ZERO,
             None => P::Vector::ZERO,
         };
         *wrench = Wrench::new(force, P::Moment::ZERO);

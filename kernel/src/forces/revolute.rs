@@ -1,22 +1,22 @@
 //! Revolute joints of bushings.
 //!
-//! `(points, ends) => record`. The force at the point of the second body, then the torque of the axes.
+//! `(points, ends) => force_pair`. The force at the point of the second body, then the torque of the axes.
 
 use crate::elements::revolute::Revolute;
-use crate::forces::record::Record;
+use crate::forces::force_pair::ForcePair;
 use crate::forces::two_points::TwoPoints;
 use crate::geometry::Geometry;
 use crate::pose::End;
 
 impl<P: Geometry> TwoPoints<P> for Revolute<P::Space> {
     #[inline(always)]
-    fn record(
+    fn force_pair(
         &self,
         [a, b]: &[P::Local; 2],
         damping: Option<&P::Real>,
         end_a: &End<'_, P>,
         end_b: &End<'_, P>,
-    ) -> Record<P::Space> {
+    ) -> ForcePair<P::Space> {
         let ((a, arm_a), (b, arm_b)) = (end_a.place(a), end_b.place(b));
         let d = P::displacement(&a, &b);
         let arm_a = end_a.arm_at(arm_a, d);
@@ -32,6 +32,6 @@ impl<P: Geometry> TwoPoints<P> for Revolute<P::Space> {
             None => (self.force(d, levers[0]), torque),
         };
         let (torque_a, torque_b) = (end_a.moment(arm_a, force), end_b.moment(arm_b, force));
-        Record { force, torque_a: torque_a + torque, torque_b: torque_b + torque }
+        ForcePair { force, torque_a: torque_a + torque, torque_b: torque_b + torque }
     }
 }

@@ -4,12 +4,12 @@
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
-use crate::forces::record::{At, Dampers, Record, Wrench, apply};
+use crate::forces::force_pair::{At, Dampers, ForcePair, Wrench, apply};
 use crate::geometry::Geometry;
 use crate::index::TorsionIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{End, Places};
-use crate::real::{Real as _, Truth as _};
+use crate::real::{Mask as _, Real as _};
 use crate::space::Linear as _;
 use crate::status::Cause;
 
@@ -29,7 +29,7 @@ pub(super) fn torsions<P: Geometry, T: Terms<P>, D: Dampers>(
         let relative =
             P::Orientation::relative(a.map(|s| &s.orientation), b.map(|s| &s.orientation));
         let Some(since) = spring.since_start(relative) else {
-            return Err(Cause::UndefinedTwist { spring: TorsionIndex(i as u16) });
+            return Err(Cause::UndefinedTorsionAngle { spring: TorsionIndex(i as u16) });
         };
         if settle {
             *turns = since.settled(*turns);
@@ -40,7 +40,7 @@ pub(super) fn torsions<P: Geometry, T: Terms<P>, D: Dampers>(
         if !D::ACT && slack.all() {
             continue;
         }
-        let twist = spring.twist(&since, *turns);
+        let torsion_angle = spring.torsion_angle(&since, *turns);
         let end_a = End::new(model, places, spring.a, Some(bodies));
         let damper = match spring.damper.row() {
             Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row),
@@ -50,13 +50,13 @@ pub(super) fn torsions<P: Geometry, T: Terms<P>, D: Dampers>(
             Some(&damping) => {
                 let end_b = End::new(model, places, spring.b, Some(bodies));
                 let rate = end_a.moment_to_axes(end_b.spin - end_a.spin);
-                spring.damped_torque(damping, &twist, rate)
+                spring.damped_torque(damping, &torsion_angle, rate)
             }
-            None => spring.torque(&twist),
+            None => spring.torque(&torsion_angle),
         };
         let torque = end_a.moment_to_world(torque);
-        let record = Record { force: P::Vector::ZERO, torque_a: -torque, torque_b: -torque };
-        apply(wrenches, spring.a.row(), spring.b.row(), &record);
+        let force_pair = ForcePair { force: P::Vector::ZERO, torque_a: -torque, torque_b: -torque };
+        apply(wrenches, spring.a.row(), spring.b.row(), &force_pair);
     }
     Ok(())
 }

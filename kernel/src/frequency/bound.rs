@@ -5,14 +5,14 @@
 
 use crate::body::{Body, BodyState};
 use crate::elements::input::InputKind;
-use crate::elements::point_law::{Turning, taut};
+use crate::elements::point_law::{Turning, geometric_stiffness};
+use crate::force_pair::Direction;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::{Instant, Laws as _};
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, StatesIn, Terms};
-use crate::pose::{Places, held_turns, place_bodies, placed, twist_of};
+use crate::pose::{Places, held_turns, place_bodies, placed, torsion_angle_of};
 use crate::real::Real;
-use crate::record::Direction;
 use crate::space::{Linear as _, Space, Vector as _};
 use crate::state::State;
 
@@ -181,7 +181,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                     }
                     let mut along =
                         |stiffness, u: P::Vector| add(block, stiffness, other, u, arm.cross(u));
-                    let turned = law.tangent(&e.stretch, arm, &mut along);
+                    let turned = law.tangent(&e.deformation, arm, &mut along);
                     *turning = *turning + turned.rest;
                     if group.clearance.row().is_none() {
                         turn(block, arm, if at_a { turned.force } else { -turned.force });
@@ -208,7 +208,8 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                 for (_, other, arm, sign) in ends.into_iter().filter(|(body, ..)| *body == here) {
                     let mut along =
                         |stiffness, u: P::Vector| add(block, stiffness, other, u, arm.cross(u));
-                    let turned = taut(signal.value, e.stretch.displacement, &mut along);
+                    let turned =
+                        geometric_stiffness(signal.value, e.deformation.displacement, &mut along);
                     turn(block, arm, turned.force * sign);
                 }
             }
@@ -219,13 +220,15 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                     return;
                 };
                 let other = if spring.a == here { spring.b } else { spring.a };
-                let Some(twist) = twist_of::<P>(spring, self.bodies, turns) else { return };
+                let Some(torsion_angle) = torsion_angle_of::<P>(spring, self.bodies, turns) else {
+                    return;
+                };
                 let gradient = match places.frames.get(spring.a.row()) {
-                    Some(frame) => P::moment_to_world(frame, twist.gradient),
-                    None => twist.gradient,
+                    Some(frame) => P::moment_to_world(frame, torsion_angle.gradient),
+                    None => torsion_angle.gradient,
                 };
                 add(block, spring.stiffness, other, P::Vector::ZERO, gradient);
-                *turning = *turning + spring.turning(twist.angle, gradient);
+                *turning = *turning + spring.turning(torsion_angle.angle, gradient);
             }
             Mount::Law(row) => {
                 view.laws.look(row, self.memories.1, &mut |law| {
@@ -373,13 +376,13 @@ fn largest_eigenvalue<R: Real>(mut block: Block<R>) -> R {
 mod tests {
     use super::*;
     use crate::geometry::F64;
-    use crate::sketch::{Sketch, Spring, Start};
+    use crate::model_spec::{ModelSpec, Spring, Start};
 
     const WORLD: BodyIndex = BodyIndex::WORLD;
     const SPRING: Spring = Spring { stiffness: 300.0, damping: 0.0, free_length: 0.1 };
 
     /// Springs in both directions between three bodies and the world in no order, under tension, and a wound one.
-    const SKETCH: Sketch = Sketch::new()
+    const MODEL_SPEC: ModelSpec = ModelSpec::new()
         .body(2.0, [0.1, 0.2, 0.15], Start::at([0.0, 0.1, 0.2]))
         .body(1.0, [0.2, 0.1, 0.15], Start::at([0.5, -0.1, 0.3]))
         .body(0.5, [0.3, 0.2, 0.25], Start::at([0.2, 0.7, -0.4]))
@@ -389,7 +392,7 @@ mod tests {
         .tsda([BodyIndex(2), WORLD], [[0.0, 0.1, 0.2], [0.5; 3]], SPRING)
         .torsion_spring([BodyIndex(1), BodyIndex(2)], [0.0, 0.0, 1.0], 20.0, 0.0, 3.0);
 
-    crate::model!(static MODEL: F64 = SKETCH);
+    crate::model!(static MODEL: F64 = MODEL_SPEC);
 
     /// All bodies in one pass and each separately: the same bits, because [`crate::watch`] compares them.
     #[test]

@@ -1,11 +1,11 @@
 //! Further pairs of bodies on which a law acts with the same tension.
 
+use crate::force_pair::Direction;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::record::Direction;
 
 /// The largest number of branches of a law.
-pub const MOST_BRANCHES: usize = 2;
+pub const MAX_BRANCHES: usize = 2;
 
 /// A further pair of bodies on which a law acts: its tension acts there along another direction.
 #[derive(Clone, Copy, Debug)]

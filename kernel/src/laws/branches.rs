@@ -1,21 +1,21 @@
 //! The branches of a law during an evaluation.
 
+use crate::force_pair::{Wrench, apply};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::laws::branch::{Branch, MOST_BRANCHES};
+use crate::laws::branch::{Branch, MAX_BRANCHES};
 use crate::laws::end::Seen;
 use crate::laws::interaction::Interaction;
 use crate::real::Real as _;
-use crate::record::{Wrench, apply};
 
 /// The branches of a law at a pose.
-pub(super) struct Branches<P: Geometry>([Option<Branch<P>>; MOST_BRANCHES]);
+pub(super) struct Branches<P: Geometry>([Option<Branch<P>>; MAX_BRANCHES]);
 
 impl<P: Geometry> Branches<P> {
     /// Those of a law.
     #[inline(always)]
     pub(super) fn of<T: Interaction<P>>(law: &T, seen: &Seen<'_, P>, state: &T::State) -> Self {
-        let mut all = [None; MOST_BRANCHES];
+        let mut all = [None; MAX_BRANCHES];
         if T::BRANCHES > 0 {
             let mut places = all.iter_mut();
             law.branches(seen, state, &mut |branch| {

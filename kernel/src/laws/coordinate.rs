@@ -3,23 +3,23 @@
 //! `(state of the ends) => value, direction; force => its effect on rotations of the bodies`. The direction is the
 //! gradient of the value: its rate is the rate of the value.
 
+use crate::force_pair::Direction;
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
 use crate::laws::hinge::{Hinge, Turns};
 use crate::laws::interaction::Springs;
 use crate::real::Real;
-use crate::record::Direction;
 use crate::space::Linear as _;
 
 /// A coordinate at a pose.
 pub(super) struct Coordinate<P: Geometry> {
     /// \[m, rad\]
     pub(super) value: P::Real,
-    way: Way<P>,
+    way: CoordinateKind<P>,
 }
 
 /// The data of its gradient and of the gradient's dependence on the pose.
-enum Way<P: Geometry> {
+enum CoordinateKind<P: Geometry> {
     /// The gradient of a rotation, world.
     Turn(P::Moment),
     /// The axis, world; \[m\] the lever arm of A's point, the displacement from it to B's and the lever arm of B's
@@ -34,7 +34,7 @@ impl<P: Geometry> Coordinate<P> {
     #[inline(always)]
     pub(super) fn turn(seen: &Seen<'_, P>, axis: &Hinge<P::Space>, turns: Turns) -> Option<Self> {
         let (value, gradient) = axis.seen(seen)?.angle(turns);
-        Some(Self { value, way: Way::Turn(seen.a.moment_to_world(gradient)) })
+        Some(Self { value, way: CoordinateKind::Turn(seen.a.moment_to_world(gradient)) })
     }
 
     /// The displacement of B's point from A's along an axis of A.
@@ -42,14 +42,14 @@ impl<P: Geometry> Coordinate<P> {
     pub(super) fn travel(seen: &Seen<'_, P>, points: &[P::Local; 2], axis: P::Vector) -> Self {
         let ((at_a, arm), (at_b, other)) = (seen.a.place(&points[0]), seen.b.place(&points[1]));
         let (way, axis) = (P::displacement(&at_a, &at_b), seen.a.to_world(axis));
-        Self { value: axis.dot(way), way: Way::Travel(axis, [arm, way, other]) }
+        Self { value: axis.dot(way), way: CoordinateKind::Travel(axis, [arm, way, other]) }
     }
 
     /// A translation along a direction of A, world, of a point common to both bodies; `ways` are the lever arm of A's
     /// point, the displacement from it to B's and the lever arm of B's point.
     #[inline(always)]
     pub(super) fn carried(value: P::Real, axis: P::Vector, ways: [P::Vector; 3]) -> Self {
-        Self { value, way: Way::Travel(axis, ways) }
+        Self { value, way: CoordinateKind::Travel(axis, ways) }
     }
 
     /// The distance of two points; without a direction where they coincide.
@@ -57,19 +57,21 @@ impl<P: Geometry> Coordinate<P> {
     pub(super) fn distance(seen: &Seen<'_, P>, points: &[P::Local; 2]) -> Self {
         let ((at_a, arm), (at_b, other)) = (seen.a.place(&points[0]), seen.b.place(&points[1]));
         let way = P::displacement(&at_a, &at_b);
-        Self { value: way.dot(way).sqrt(), way: Way::Distance(way, [arm, other]) }
+        Self { value: way.dot(way).sqrt(), way: CoordinateKind::Distance(way, [arm, other]) }
     }
 
     /// Its gradient.
     #[inline(always)]
     pub(super) fn direction(&self, seen: &Seen<'_, P>) -> Direction<P::Space> {
         match self.way {
-            Way::Turn(gradient) => seen.about(gradient),
+            CoordinateKind::Turn(gradient) => seen.about(gradient),
             // The force on A acts at B's point, so that both forces are collinear.
-            Way::Travel(axis, [arm, way, other]) => {
+            CoordinateKind::Travel(axis, [arm, way, other]) => {
                 seen.along(axis, [seen.a.arm_at(arm, way), other])
             }
-            Way::Distance(way, arms) => seen.along(way * self.value.reciprocal_or_zero(), arms),
+            CoordinateKind::Distance(way, arms) => {
+                seen.along(way * self.value.reciprocal_or_zero(), arms)
+            }
         }
     }
 
@@ -83,21 +85,21 @@ impl<P: Geometry> Coordinate<P> {
     ) -> [P::Real; 2] {
         let length = |v: P::Vector| v.dot(v).sqrt();
         match &self.way {
-            Way::Turn(gradient) => [P::Real::HALF * force * gradient.dot(*gradient); 2],
+            CoordinateKind::Turn(gradient) => [P::Real::HALF * force * gradient.dot(*gradient); 2],
             // The axis rotates with A. For the force F, the lever arm r of A's point and the displacement d to B's, a
             // translation ξ and a rotation φ of A contribute at most 2·F·|φ|·|ξ| + F·(3·|r| + |d|)·φ², and 2·|φ|·|ξ| ≤
             // ξ²/l + l·φ².
-            Way::Travel(_, ways) => {
+            CoordinateKind::Travel(_, ways) => {
                 let [arm, far, other] = ways.map(length);
-                let reach = arm + far;
-                let across = force * reach.reciprocal_or_zero();
+                let elongation = arm + far;
+                let across = force * elongation.reciprocal_or_zero();
                 for axis in P::Vector::axes() {
                     visit(across, &Direction { along: axis, moments: [P::Moment::ZERO; 2] });
                 }
                 let three = P::Real::ONE + P::Real::TWO;
-                [force * (three * arm + far + reach), force * other]
+                [force * (three * arm + far + elongation), force * other]
             }
-            Way::Distance(_, arms) => {
+            CoordinateKind::Distance(_, arms) => {
                 let across = force * self.value.reciprocal_or_zero();
                 for axis in P::Vector::axes() {
                     visit(across, &seen.along(axis, *arms));

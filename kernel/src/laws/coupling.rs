@@ -9,6 +9,7 @@
 //! y is updated incrementally from step to step: in single precision a large revolution count would leave no digits for
 //! the teeth.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::branch::Branch;
@@ -16,9 +17,8 @@ use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
-use crate::laws::term::{MOST_TERMS, Term, Way};
+use crate::laws::term::{CoordinateKind, MAX_TERMS, Term};
 use crate::real::Real;
-use crate::record::Record;
 use crate::words::{WordSource, WordVisitor, Words};
 
 law! {
@@ -45,16 +45,16 @@ law! {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sum<R> {
     /// Half revolutions of each coordinate.
-    pub turns: [Turns; MOST_TERMS],
+    pub turns: [Turns; MAX_TERMS],
     /// \[m, rad\] the coordinates, rotations within the last revolution.
-    pub last: [R; MOST_TERMS],
+    pub last: [R; MAX_TERMS],
     /// \[m, rad\] Σ aᵢ·xᵢ.
     pub sum: R,
 }
 
 impl<R: Real> Default for Sum<R> {
     fn default() -> Self {
-        Self { turns: Default::default(), last: [R::ZERO; MOST_TERMS], sum: R::ZERO }
+        Self { turns: Default::default(), last: [R::ZERO; MAX_TERMS], sum: R::ZERO }
     }
 }
 
@@ -75,8 +75,8 @@ impl<R: Real> Words for Sum<R> {
 #[inline(always)]
 fn of_term<P: Geometry>(term: &Term<P>, seen: &Seen<'_, P>, turns: Turns) -> Option<Coordinate<P>> {
     match &term.way {
-        Way::Turn(axis) => Coordinate::turn(seen, axis, turns),
-        Way::Travel { points, axis } => Some(Coordinate::travel(seen, points, *axis)),
+        CoordinateKind::Turn(axis) => Coordinate::turn(seen, axis, turns),
+        CoordinateKind::Travel { points, axis } => Some(Coordinate::travel(seen, points, *axis)),
     }
 }
 
@@ -133,18 +133,18 @@ impl<P: Geometry> Coupling<P> {
 
     /// \[m, rad\] the extension of its spring.
     #[inline(always)]
-    fn stretch(&self, sum: P::Real) -> P::Real {
+    fn deformation(&self, sum: P::Real) -> P::Real {
         let (half, zero) = (P::Real::HALF * self.play, P::Real::ZERO);
         let y = sum - self.offset;
         let (above, below) = (y - half, y + half);
-        let stretch = P::Real::pick(zero.less_than(above), self.pulls * above, zero);
-        P::Real::pick(below.less_than(zero), self.pushes * below, stretch)
+        let deformation = P::Real::pick(zero.less_than(above), self.pulls * above, zero);
+        P::Real::pick(below.less_than(zero), self.pushes * below, deformation)
     }
 
     /// \[N, N·m\] the tension of its spring.
     #[inline(always)]
     fn tension(&self, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> Option<P::Real> {
-        Some(self.stiffness * self.stretch(self.sum(seen, memory)?))
+        Some(self.stiffness * self.deformation(self.sum(seen, memory)?))
     }
 
     /// Whether teeth or a tendon may separate.
@@ -158,7 +158,7 @@ impl<P: Geometry> Coupling<P> {
 impl<P: Geometry> Interaction<P> for Coupling<P> {
     type State = Sum<P::Real>;
     type Dampers = [(); 1];
-    const BRANCHES: usize = MOST_TERMS - 1;
+    const BRANCHES: usize = MAX_TERMS - 1;
     const QUANTITIES: &'static [Quantity] =
         &[Quantity { name: "load", unit: "N·m" }, Quantity { name: "stretch", unit: "rad" }];
 
@@ -173,10 +173,10 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
             else {
                 continue;
             };
-            if let Way::Turn(axis) = &known.way
-                && let Some(twist) = axis.seen(&seen)
+            if let CoordinateKind::Turn(axis) = &known.way
+                && let Some(torsion_angle) = axis.seen(&seen)
             {
-                twist.settle(turns);
+                torsion_angle.settle(turns);
             }
             if let (Some(next), Some(last)) =
                 (of_term(known, &seen, turns.odd()), memory.last.get_mut(term))
@@ -187,7 +187,7 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
     }
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> Option<Record<P::Space>> {
+    fn force_pair(&self, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> Option<ForcePair<P::Space>> {
         let tension = self.tension(seen, memory)?;
         let branch = self.part(0, seen, memory)?.branch(tension);
         Some(seen.pull(&branch.direction, tension))
@@ -205,7 +205,7 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
         visit: &mut impl FnMut(Branch<P>),
     ) {
         let Some(tension) = self.tension(seen, memory) else { return };
-        for term in 1..MOST_TERMS {
+        for term in 1..MAX_TERMS {
             if let Some(part) = self.part(term, seen, memory) {
                 visit(part.branch(tension));
             }
@@ -214,8 +214,8 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
 
     fn energy(&self, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> P::Real {
         let Some(sum) = self.sum(seen, memory) else { return P::Real::ZERO };
-        let stretch = self.stretch(sum);
-        P::Real::HALF * (self.stiffness * (stretch * stretch))
+        let deformation = self.deformation(sum);
+        P::Real::HALF * (self.stiffness * (deformation * deformation))
     }
 
     /// As if its teeth were in contact.
@@ -292,6 +292,6 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
 
     fn read(&self, quantity: usize, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> P::Real {
         let Some(sum) = self.sum(seen, memory) else { return P::Real::ZERO };
-        if quantity == 0 { self.stiffness * self.stretch(sum) } else { sum - self.offset }
+        if quantity == 0 { self.stiffness * self.deformation(sum) } else { sum - self.offset }
     }
 }

@@ -44,7 +44,7 @@ impl<R: Real, const N: usize> Curve<R, N> {
         let (mut before, mut area) = (R::ZERO, R::ZERO);
         for (row, pair) in self.known().windows(2).enumerate() {
             let &[a, b] = pair else { continue };
-            let here = if row == 0 { R::truth(true) } else { a[0].at_most(x) };
+            let here = if row == 0 { R::mask(true) } else { a[0].at_most(x) };
             let pick = |then: [R; 2], otherwise: [R; 2]| {
                 [R::pick(here, then[0], otherwise[0]), R::pick(here, then[1], otherwise[1])]
             };

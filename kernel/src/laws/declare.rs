@@ -8,7 +8,7 @@
 /// `bodies: [BodyIndex; 2]`.
 ///
 /// ```
-/// use dbd_kernel::laws::{Interaction, Nothing, Record, Seen};
+/// use dbd_kernel::laws::{Interaction, NoStorage, ForcePair, Seen};
 /// use dbd_kernel::{Geometry, Real};
 ///
 /// dbd_kernel::law! {
@@ -22,16 +22,16 @@
 /// }
 ///
 /// impl<P: Geometry> Interaction<P> for Rubber<P> {
-///     type State = Nothing;
+///     type State = NoStorage;
 ///     type Dampers = [(); 0];
 ///
-///     fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
+///     fn force_pair(&self, seen: &Seen<'_, P>, _: &NoStorage) -> Option<ForcePair<P::Space>> {
 ///         let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
 ///         // Not along a unit vector: the displacement itself, force over stiffness.
 ///         let way = P::displacement(&a.0, &b.0);
 ///         Some(seen.pull(&seen.along(way, [a.1, b.1]), self.stiffness))
 ///     }
-///     fn energy(&self, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+///     fn energy(&self, seen: &Seen<'_, P>, _: &NoStorage) -> P::Real {
 ///         use dbd_kernel::space::Linear as _;
 ///         let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
 ///         let way = P::displacement(&a.0, &b.0);
@@ -40,7 +40,7 @@
 ///     fn tangent(
 ///         &self,
 ///         seen: &Seen<'_, P>,
-///         _: &Nothing,
+///         _: &NoStorage,
 ///         visit: dbd_kernel::laws::Springs<'_, P>,
 ///     ) -> [P::Real; 2] {
 ///         use dbd_kernel::space::Linear as _;

@@ -2,13 +2,13 @@
 //!
 //! Distance `|d| ↦ tension F(|d| − free_length)`, linear between knots and beyond them; its energy is the area.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
-use crate::laws::interaction::{Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::laws::interaction::{Interaction, NoStorage, Quantity, Springs, Wrong};
 use crate::laws::tabled::{Spring, rising};
 use crate::real::Real;
-use crate::record::Record;
 
 law! {
     /// A spring between two points with a table of force over extension: progressive, one-sided, preloaded.
@@ -34,23 +34,23 @@ impl<P: Geometry> DistanceSpring<P> {
 }
 
 impl<P: Geometry> Interaction<P> for DistanceSpring<P> {
-    type State = Nothing;
+    type State = NoStorage;
     type Dampers = [(); 0];
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "force", unit: "N" }];
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
+    fn force_pair(&self, seen: &Seen<'_, P>, _: &NoStorage) -> Option<ForcePair<P::Space>> {
         let spring = self.spring(seen);
         // Coincident points have no direction for a force.
         let lost = spring.coordinate.value == P::Real::ZERO && spring.tension() != P::Real::ZERO;
-        (!lost).then(|| spring.record(seen))
+        (!lost).then(|| spring.force_pair(seen))
     }
 
-    fn energy(&self, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+    fn energy(&self, seen: &Seen<'_, P>, _: &NoStorage) -> P::Real {
         self.spring(seen).energy()
     }
 
-    fn tangent(&self, seen: &Seen<'_, P>, _: &Nothing, visit: Springs<'_, P>) -> [P::Real; 2] {
+    fn tangent(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: Springs<'_, P>) -> [P::Real; 2] {
         self.spring(seen).tangent(seen, visit)
     }
 
@@ -60,7 +60,7 @@ impl<P: Geometry> Interaction<P> for DistanceSpring<P> {
         rising(&self.force, "force")
     }
 
-    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &NoStorage) -> P::Real {
         self.spring(seen).tension()
     }
 }

@@ -3,13 +3,13 @@
 //! Distance `|d| ↦ x = |d| − to` or `from − |d|`, force `k·x·(1 + a·ẋ)` back into the range, along the line of the two
 //! points: the law of [`super::EndStop`].
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
-use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::laws::interaction::{Damper, Interaction, NoStorage, Quantity, Springs, Wrong};
 use crate::laws::stop::{Stopped, check};
 use crate::real::Real;
-use crate::record::Record;
 
 law! {
     /// A range of the distance of two points: a rope (`to`), two spheres (`from`, the sum of their radii), or both.
@@ -36,28 +36,28 @@ impl<P: Geometry> DistanceStop<P> {
 }
 
 impl<P: Geometry> Interaction<P> for DistanceStop<P> {
-    type State = Nothing;
+    type State = NoStorage;
     type Dampers = [(); 1];
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "depth", unit: "m" }];
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
+    fn force_pair(&self, seen: &Seen<'_, P>, _: &NoStorage) -> Option<ForcePair<P::Space>> {
         let stopped = self.stopped(seen);
         // Coincident points have no direction for a force.
         let lost = stopped.coordinate.value == P::Real::ZERO && stopped.beyond != P::Real::ZERO;
-        (!lost).then(|| stopped.record(seen))
+        (!lost).then(|| stopped.force_pair(seen))
     }
 
-    fn energy(&self, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+    fn energy(&self, seen: &Seen<'_, P>, _: &NoStorage) -> P::Real {
         self.stopped(seen).energy()
     }
 
-    fn tangent(&self, seen: &Seen<'_, P>, _: &Nothing, visit: Springs<'_, P>) -> [P::Real; 2] {
+    fn tangent(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: Springs<'_, P>) -> [P::Real; 2] {
         self.stopped(seen).tangent(seen, visit)
     }
 
     #[inline(always)]
-    fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
+    fn dampers(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: &mut impl FnMut(Damper<P>)) {
         if self.dissipation == P::Real::ZERO {
             return visit(Damper::idle());
         }
@@ -69,7 +69,7 @@ impl<P: Geometry> Interaction<P> for DistanceStop<P> {
         check([self.from, self.to], self.stiffness, self.dissipation)
     }
 
-    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &NoStorage) -> P::Real {
         self.stopped(seen).depth()
     }
 }

@@ -5,11 +5,11 @@
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
+use crate::force_pair::Direction;
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
 use crate::real::Real;
-use crate::record::Direction;
-use crate::record::Record;
 use crate::schedule::Signal;
 use crate::space::{Linear as _, Moment as _, Space, Vector as _};
 
@@ -212,13 +212,13 @@ impl<'s, P: Geometry> Seen<'s, P> {
     /// The record of a tension \[N, N·m\] along a direction: a positive one pulls B against the direction.
     #[inline(always)]
     #[must_use]
-    pub fn pull(&self, direction: &Direction<P::Space>, tension: P::Real) -> Record<P::Space> {
+    pub fn pull(&self, direction: &Direction<P::Space>, tension: P::Real) -> ForcePair<P::Space> {
         let Direction { along, moments: [of_a, of_b] } = *direction;
         let torque_a = match self.a.is_ground() {
             true => P::Moment::ZERO,
             false => self.a.moment_to_world(of_a * tension),
         };
-        Record {
+        ForcePair {
             force: along * tension,
             torque_a,
             torque_b: self.b.moment_to_world(of_b * tension),

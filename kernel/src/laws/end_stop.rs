@@ -4,13 +4,13 @@
 //! (1975) 440, with exponent 1). The spring is a force with the energy `½·k·x²`; the rest is a damper `a·k·x` whose
 //! tension never exceeds the spring's: it never pulls.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
-use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::laws::interaction::{Damper, Interaction, NoStorage, Quantity, Springs, Wrong};
 use crate::laws::stop::{Stopped, check};
 use crate::real::Real;
-use crate::record::Record;
 
 law! {
     /// A point of the second body stopped by planes of the first body.
@@ -39,25 +39,25 @@ impl<P: Geometry> EndStop<P> {
 }
 
 impl<P: Geometry> Interaction<P> for EndStop<P> {
-    type State = Nothing;
+    type State = NoStorage;
     type Dampers = [(); 1];
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "depth", unit: "m" }];
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
-        Some(self.stopped(seen).record(seen))
+    fn force_pair(&self, seen: &Seen<'_, P>, _: &NoStorage) -> Option<ForcePair<P::Space>> {
+        Some(self.stopped(seen).force_pair(seen))
     }
 
-    fn energy(&self, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+    fn energy(&self, seen: &Seen<'_, P>, _: &NoStorage) -> P::Real {
         self.stopped(seen).energy()
     }
 
-    fn tangent(&self, seen: &Seen<'_, P>, _: &Nothing, visit: Springs<'_, P>) -> [P::Real; 2] {
+    fn tangent(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: Springs<'_, P>) -> [P::Real; 2] {
         self.stopped(seen).tangent(seen, visit)
     }
 
     #[inline(always)]
-    fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
+    fn dampers(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: &mut impl FnMut(Damper<P>)) {
         if self.dissipation == P::Real::ZERO {
             return visit(Damper::idle());
         }
@@ -68,7 +68,7 @@ impl<P: Geometry> Interaction<P> for EndStop<P> {
         check([self.from, self.to], self.stiffness, self.dissipation)
     }
 
-    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &NoStorage) -> P::Real {
         self.stopped(seen).depth()
     }
 }

@@ -87,8 +87,8 @@ impl<S: Space> Twisted<S> {
     pub fn angle(&self, turns: Turns) -> (S::Real, S::Moment) {
         match S::Real::counts(&[turns.0]).first() {
             Some(count) => {
-                let twist = self.spring.twist(&self.since, *count);
-                (twist.angle, twist.gradient)
+                let torsion_angle = self.spring.torsion_angle(&self.since, *count);
+                (torsion_angle.angle, torsion_angle.gradient)
             }
             None => (S::Real::ZERO, self.gradient()),
         }

@@ -2,14 +2,14 @@
 //!
 //! Rate of the torsion angle `ω ↦ torque T(ω)` against it, along the angle's gradient; see `tabled`.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::hinge::Turns;
-use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::laws::interaction::{Damper, Interaction, NoStorage, Quantity, Springs, Wrong};
 use crate::laws::tabled::{brake, braking};
 use crate::real::Real;
-use crate::record::Record;
 
 law! {
     /// A damper about an axis with a table of torque over rate.
@@ -30,25 +30,25 @@ impl<P: Geometry> HingeDamper<P> {
 }
 
 impl<P: Geometry> Interaction<P> for HingeDamper<P> {
-    type State = Nothing;
+    type State = NoStorage;
     type Dampers = [(); 1];
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "torque", unit: "N·m" }];
 
     #[inline(always)]
-    fn record(&self, _: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
-        Some(Record::ZERO)
+    fn force_pair(&self, _: &Seen<'_, P>, _: &NoStorage) -> Option<ForcePair<P::Space>> {
+        Some(ForcePair::ZERO)
     }
 
-    fn energy(&self, _: &Seen<'_, P>, _: &Nothing) -> P::Real {
+    fn energy(&self, _: &Seen<'_, P>, _: &NoStorage) -> P::Real {
         P::Real::ZERO
     }
 
-    fn tangent(&self, _: &Seen<'_, P>, _: &Nothing, _: Springs<'_, P>) -> [P::Real; 2] {
+    fn tangent(&self, _: &Seen<'_, P>, _: &NoStorage, _: Springs<'_, P>) -> [P::Real; 2] {
         [P::Real::ZERO; 2]
     }
 
     #[inline(always)]
-    fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
+    fn dampers(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: &mut impl FnMut(Damper<P>)) {
         visit(match self.turn(seen) {
             Some(turn) => brake(seen, &turn, &self.torque),
             None => Damper::idle(),
@@ -59,7 +59,7 @@ impl<P: Geometry> Interaction<P> for HingeDamper<P> {
         braking(&self.torque, "torque")
     }
 
-    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &NoStorage) -> P::Real {
         let rate = |turn: Coordinate<P>| self.torque.at(seen.rate(&turn.direction(seen))).0;
         self.turn(seen).map_or(P::Real::ZERO, rate)
     }

@@ -1,5 +1,6 @@
 //! A rotor behind a gear that rotates one body relative to another: [`super::Rotor`] of the rotation.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
@@ -8,7 +9,6 @@ use crate::laws::interaction::{Damper, Inner, Interaction, Quantity, Springs, Wr
 use crate::laws::rotor::{Gear, Geared, Rotor};
 use crate::laws::servo::Effort;
 use crate::real::Real;
-use crate::record::Record;
 use crate::words::{WordSource, WordVisitor, Words};
 
 law! {
@@ -109,15 +109,19 @@ impl<P: Geometry> Interaction<P> for HingeDrive<P> {
     #[inline(always)]
     fn settle(&self, seen: &Seen<'_, P>, memory: &mut TurnRotor<P::Real>) {
         let Some(geared) = self.geared(seen, memory.turns) else { return };
-        let Some(twist) = self.axis.seen(seen) else { return };
-        twist.settle(&mut memory.turns);
-        let (next, _) = twist.angle(memory.turns.odd());
+        let Some(torsion_angle) = self.axis.seen(seen) else { return };
+        torsion_angle.settle(&mut memory.turns);
+        let (next, _) = torsion_angle.angle(memory.turns.odd());
         geared.settle(seen, next, &mut memory.rotor);
     }
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> Option<Record<P::Space>> {
-        Some(self.geared(seen, memory.turns)?.record(seen, &memory.rotor))
+    fn force_pair(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &TurnRotor<P::Real>,
+    ) -> Option<ForcePair<P::Space>> {
+        Some(self.geared(seen, memory.turns)?.force_pair(seen, &memory.rotor))
     }
 
     fn energy(&self, seen: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {

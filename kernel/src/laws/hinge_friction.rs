@@ -1,5 +1,6 @@
 //! Dry friction of a rotation about an axis, with sticking: [`super::Slip`] of its torsion angle.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
@@ -7,7 +8,6 @@ use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::laws::slip::{Friction, Rubbing, Slip};
 use crate::real::Real;
-use crate::record::Record;
 use crate::words::{WordSource, WordVisitor, Words};
 
 law! {
@@ -86,16 +86,20 @@ impl<P: Geometry> Interaction<P> for HingeFriction<P> {
 
     #[inline(always)]
     fn settle(&self, seen: &Seen<'_, P>, memory: &mut TurnSlip<P::Real>) {
-        let Some(twist) = self.axis.seen(seen) else { return };
-        twist.settle(&mut memory.turns);
+        let Some(torsion_angle) = self.axis.seen(seen) else { return };
+        torsion_angle.settle(&mut memory.turns);
         if let Some(rubbing) = self.rubbing(seen, memory) {
             rubbing.settle(&mut memory.slip);
         }
     }
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, memory: &TurnSlip<P::Real>) -> Option<Record<P::Space>> {
-        Some(self.rubbing(seen, memory)?.record(seen))
+    fn force_pair(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &TurnSlip<P::Real>,
+    ) -> Option<ForcePair<P::Space>> {
+        Some(self.rubbing(seen, memory)?.force_pair(seen))
     }
 
     fn energy(&self, seen: &Seen<'_, P>, memory: &TurnSlip<P::Real>) -> P::Real {

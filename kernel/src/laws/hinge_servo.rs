@@ -1,5 +1,6 @@
 //! A servo that rotates one body relative to another: [`super::servo`] of the rotation, as a damper with bounds.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
@@ -7,7 +8,6 @@ use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::laws::servo::{Effort, Servo};
 use crate::real::Real;
-use crate::record::Record;
 
 law! {
     /// A rotation of the second body relative to the first about an axis, driven by a servo without a rotor.
@@ -50,14 +50,14 @@ impl<P: Geometry> Interaction<P> for HingeServo<P> {
 
     #[inline(always)]
     fn settle(&self, seen: &Seen<'_, P>, turns: &mut Turns) {
-        if let Some(twist) = self.axis.seen(seen) {
-            twist.settle(turns);
+        if let Some(torsion_angle) = self.axis.seen(seen) {
+            torsion_angle.settle(turns);
         }
     }
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, turns: &Turns) -> Option<Record<P::Space>> {
-        self.servo(seen, *turns).map(|_| Record::ZERO)
+    fn force_pair(&self, seen: &Seen<'_, P>, turns: &Turns) -> Option<ForcePair<P::Space>> {
+        self.servo(seen, *turns).map(|_| ForcePair::ZERO)
     }
 
     fn energy(&self, _: &Seen<'_, P>, _: &Turns) -> P::Real {

@@ -2,6 +2,7 @@
 //!
 //! Torsion angle `θ ↦ torque T(θ)` against it, along the angle's gradient; its energy is the area.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
@@ -9,7 +10,6 @@ use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Interaction, Quantity, Springs, Wrong};
 use crate::laws::tabled::{Spring, rising};
 use crate::real::Real;
-use crate::record::Record;
 
 law! {
     /// A spring about an axis with a table of torque over angle: progressive, one-sided, with a dead zone.
@@ -36,14 +36,14 @@ impl<P: Geometry> Interaction<P> for HingeSpring<P> {
 
     #[inline(always)]
     fn settle(&self, seen: &Seen<'_, P>, turns: &mut Turns) {
-        if let Some(twist) = self.axis.seen(seen) {
-            twist.settle(turns);
+        if let Some(torsion_angle) = self.axis.seen(seen) {
+            torsion_angle.settle(turns);
         }
     }
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, turns: &Turns) -> Option<Record<P::Space>> {
-        Some(self.spring(seen, *turns)?.record(seen))
+    fn force_pair(&self, seen: &Seen<'_, P>, turns: &Turns) -> Option<ForcePair<P::Space>> {
+        Some(self.spring(seen, *turns)?.force_pair(seen))
     }
 
     fn energy(&self, seen: &Seen<'_, P>, turns: &Turns) -> P::Real {

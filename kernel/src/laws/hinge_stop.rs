@@ -3,6 +3,7 @@
 //! Torsion angle `θ ↦ x = θ − to` or `from − θ`, torque `k·x·(1 + a·ẋ)` back into the range, along the angle's
 //! gradient.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
@@ -10,7 +11,6 @@ use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::laws::stop::{Stopped, check};
 use crate::real::Real;
-use crate::record::Record;
 
 law! {
     /// Stops at both ends of a range of rotation of the second body relative to the first about an axis.
@@ -43,14 +43,14 @@ impl<P: Geometry> Interaction<P> for HingeStop<P> {
 
     #[inline(always)]
     fn settle(&self, seen: &Seen<'_, P>, turns: &mut Turns) {
-        if let Some(twist) = self.axis.seen(seen) {
-            twist.settle(turns);
+        if let Some(torsion_angle) = self.axis.seen(seen) {
+            torsion_angle.settle(turns);
         }
     }
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, turns: &Turns) -> Option<Record<P::Space>> {
-        Some(self.stopped(seen, *turns)?.record(seen))
+    fn force_pair(&self, seen: &Seen<'_, P>, turns: &Turns) -> Option<ForcePair<P::Space>> {
+        Some(self.stopped(seen, *turns)?.force_pair(seen))
     }
 
     fn energy(&self, seen: &Seen<'_, P>, turns: &Turns) -> P::Real {

@@ -1,14 +1,14 @@
 //! The interface of an interaction: a law between two bodies.
 
 use crate::elements::share::Share;
+use crate::force_pair::Direction;
+use crate::force_pair::ForcePair;
 use crate::geometry::{F64, Geometry};
 use crate::index::BodyIndex;
 use crate::laws::branch::Branch;
 use crate::laws::end::Seen;
 use crate::laws::kind::{Field, FieldSink, FieldSource};
 use crate::real::Real;
-use crate::record::Direction;
-use crate::record::Record;
 use crate::space::Linear as _;
 use crate::words::{WordSource, WordVisitor, Words};
 
@@ -33,9 +33,9 @@ impl<const N: usize> Several for [(); N] {
 
 /// The memory of a law without memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Nothing;
+pub struct NoStorage;
 
-impl Words for Nothing {
+impl Words for NoStorage {
     fn visit(&self, _: &mut impl WordVisitor) {}
     fn fill(&mut self, _: &mut impl WordSource) {}
 }
@@ -59,14 +59,14 @@ pub struct Damper<P: Geometry> {
 }
 
 /// Beyond any force; its product with any step is finite in single precision.
-const MOST: f64 = 1e30;
+const MAX: f64 = 1e30;
 
 impl<P: Geometry> Damper<P> {
     /// A damper towards zero rate, without bounds.
     #[inline(always)]
     #[must_use]
     pub fn new(coefficient: P::Real, direction: Direction<P::Space>) -> Self {
-        let most = P::Real::from_f64(MOST);
+        let most = P::Real::from_f64(MAX);
         let zero = P::Real::ZERO;
         let bounds = [-most, most];
         Self { coefficient, direction, rate: zero, bounds, brakes: false, inner: zero }
@@ -221,7 +221,7 @@ pub type Springs<'v, P> =
 /// The sign of a record is that of [`Seen::pull`]. A law must be a function of its arguments and its memory only, in
 /// arithmetic of [`Real`]: then its bits are the same on every target.
 pub trait Interaction<P: Geometry>: Constants<P> {
-    /// Its memory from step to step; [`Nothing`] without one.
+    /// Its memory from step to step; [`NoStorage`] without one.
     type State: Copy + Default + Words + Send + Sync + 'static;
     /// The largest number of its dampers: `[(); 1]`.
     type Dampers: Several;
@@ -234,17 +234,17 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     const INNER: bool = false;
     /// Whether its dampers are those of a drive: their work counts as that of inputs.
     const DRIVES: bool = false;
-    /// Whether [`Self::record`] depends on inputs: setting an input then costs an evaluation. Dampers and drives may
+    /// Whether [`Self::force_pair`] depends on inputs: setting an input then costs an evaluation. Dampers and drives may
     /// depend on inputs without it.
     const DRIVEN: bool = false;
     /// The largest number of further pairs of bodies on which it acts, up to
-    /// [`MOST_BRANCHES`](crate::laws::MOST_BRANCHES): with one tension along the sum of its own direction and of
+    /// [`MAX_BRANCHES`](crate::laws::MOST_BRANCHES): with one tension along the sum of its own direction and of
     /// theirs. Such a law has at most one damper.
     const BRANCHES: usize = 0;
     /// The outputs of [`Self::read`].
     const QUANTITIES: &'static [Quantity] = &[];
 
-    /// Updates its memory at the boundary of a step, before [`Self::record`]; must be idempotent. An evaluation may be
+    /// Updates its memory at the boundary of a step, before [`Self::force_pair`]; must be idempotent. An evaluation may be
     /// repeated without time passing.
     #[inline(always)]
     fn settle(&self, _seen: &Seen<'_, P>, _state: &mut Self::State) {}
@@ -255,12 +255,12 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     fn advance(&self, _seen: &Seen<'_, P>, _h: P::Real, _state: &mut Self::State) {}
 
     /// The record of its springs, without its dampers; `None` where it is undefined, which fails the step.
-    fn record(&self, seen: &Seen<'_, P>, state: &Self::State) -> Option<Record<P::Space>>;
+    fn force_pair(&self, seen: &Seen<'_, P>, state: &Self::State) -> Option<ForcePair<P::Space>>;
 
-    /// \[J\] the energy whose negative gradient is [`Self::record`], if it has one.
+    /// \[J\] the energy whose negative gradient is [`Self::force_pair`], if it has one.
     fn energy(&self, seen: &Seen<'_, P>, state: &Self::State) -> P::Real;
 
-    /// Visits the stiffness of [`Self::record`] as springs along directions \[N/m, N·m/rad\], each at its largest value
+    /// Visits the stiffness of [`Self::force_pair`] as springs along directions \[N/m, N·m/rad\], each at its largest value
     /// within a step; returns \[N·m\] an upper bound of the effect of its force on a rotation of A and of B, in any
     /// direction. Used by the frequency bound and the matrix of implicit schemes. With [`Self::BRANCHES`] the first
     /// spring is along all directions; the others belong to its own pair.

@@ -6,7 +6,7 @@ use crate::geometry::{F64, Geometry};
 use crate::index::InputIndex;
 use crate::laws::curve::Curve;
 use crate::laws::hinge::Hinge;
-use crate::laws::term::{MOST_TERMS, Term, Way};
+use crate::laws::term::{CoordinateKind, MAX_TERMS, Term};
 use crate::real::Real as _;
 use crate::space::{Linear as _, Space, Turn as _};
 use crate::vector::{Quaternion, Vec3};
@@ -43,7 +43,7 @@ pub trait FieldSource {
     /// Writes knots with ascending x to the front of `to`; returns their number.
     fn table(&mut self, field: &Field, to: &mut [[f64; 2]]) -> Option<usize>;
     /// Terms of a sum, the present ones first.
-    fn terms(&mut self, field: &Field) -> Option<[Option<Term>; MOST_TERMS]>;
+    fn terms(&mut self, field: &Field) -> Option<[Option<Term>; MAX_TERMS]>;
 }
 
 /// Accepts constants by name, in double precision.
@@ -61,7 +61,7 @@ pub trait FieldSink {
     /// Knots, and their largest number.
     fn table(&mut self, field: &Field, knots: &[[f64; 2]], capacity: usize);
     /// Terms of a sum.
-    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MOST_TERMS]);
+    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MAX_TERMS]);
 }
 
 /// A kind of constant.
@@ -253,20 +253,20 @@ impl<const N: usize> Kind for Table<N> {
     }
 }
 
-/// The terms of a sum: `[Option<Term<P>>; MOST_TERMS]`, the present ones first.
+/// The terms of a sum: `[Option<Term<P>>; MAX_TERMS]`, the present ones first.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms;
 
 impl Kind for Terms {
-    type In<P: Geometry> = [Option<Term<P>>; MOST_TERMS];
+    type In<P: Geometry> = [Option<Term<P>>; MAX_TERMS];
     const NAME: &'static str = "terms";
 
     fn rounded<P: Geometry>(of: &Self::In<F64>) -> Self::In<P> {
         of.map(|term| {
             let Term { bodies, factor, way } = term?;
             let way = match way {
-                Way::Turn(axis) => Way::Turn(Axis::rounded::<P>(&axis)),
-                Way::Travel { points, axis } => Way::Travel {
+                CoordinateKind::Turn(axis) => CoordinateKind::Turn(Axis::rounded::<P>(&axis)),
+                CoordinateKind::Travel { points, axis } => CoordinateKind::Travel {
                     points: Points::rounded::<P>(&points),
                     axis: Normal::rounded::<P>(&axis),
                 },
@@ -279,8 +279,8 @@ impl Kind for Terms {
             visitor.word(Word::U64(u64::from(a.0) << 16 | u64::from(b.0)));
             visitor.word(factor.word());
             match way {
-                Way::Turn(axis) => Axis::visit::<P>(axis, &mut Hand(visitor)),
-                Way::Travel { points, axis } => {
+                CoordinateKind::Turn(axis) => Axis::visit::<P>(axis, &mut Hand(visitor)),
+                CoordinateKind::Travel { points, axis } => {
                     Points::visit::<P>(points, &mut Hand(visitor));
                     Normal::visit::<P>(axis, &mut Hand(visitor));
                 }

@@ -3,12 +3,12 @@
 //! `(tables, pose) => records added to the wrenches`. Laws that are not listed generate no code.
 
 use crate::elements::share::Share;
+use crate::force_pair::Wrench;
 use crate::geometry::Geometry;
 use crate::laws::end::Instant;
 use crate::laws::interaction::{Interaction, Need, Several, SharesOf};
 use crate::laws::row::{Act, DamperPass, Row};
 use crate::laws::slice;
-use crate::record::Wrench;
 use crate::words::{WordSource, WordVisitor};
 
 /// A model's laws: a table, a tuple of tables, or a container of a program that reads scenes.

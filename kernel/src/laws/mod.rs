@@ -9,7 +9,7 @@
 //! likewise, in descending order in the second half of a step.
 //!
 //! A law gets its two bodies as [`Seen`]: points, velocities, the rotation of one body in the other. It returns a
-//! [`Record`] and [`Damper`]s, each along a [`Direction`]: a unit force or a unit moment on both bodies, so action
+//! [`ForcePair`] and [`Damper`]s, each along a [`Direction`]: a unit force or a unit moment on both bodies, so action
 //! equals reaction and the power of a force along it is exactly force times rate.
 
 #[macro_use]
@@ -48,7 +48,7 @@ mod stop;
 mod tabled;
 mod term;
 
-pub use branch::{Branch, MOST_BRANCHES};
+pub use branch::{Branch, MAX_BRANCHES};
 pub use coupling::{Coupling, Sum};
 pub use curve::Curve;
 pub use distance_damper::DistanceDamper;
@@ -65,7 +65,7 @@ pub use hinge_servo::HingeServo;
 pub use hinge_spring::HingeSpring;
 pub use hinge_stop::HingeStop;
 pub use interaction::{
-    Constants, Damper, Inner, Interaction, Law, Need, Nothing, Quantity, Several, Springs, Wrong,
+    Constants, Damper, Inner, Interaction, Law, Need, NoStorage, Quantity, Several, Springs, Wrong,
 };
 #[doc(hidden)]
 pub use kind::first;
@@ -82,16 +82,16 @@ pub use slide_drive::SlideDrive;
 pub use slide_friction::SlideFriction;
 pub use slide_servo::SlideServo;
 pub use slip::Slip;
-pub use term::{MOST_TERMS, Term, Way};
+pub use term::{CoordinateKind, MAX_TERMS, Term};
 
-pub use crate::record::Direction;
-pub use crate::record::Record;
+pub use crate::force_pair::Direction;
+pub use crate::force_pair::ForcePair;
 
 /// The imports for a file with a user-defined law: `use dbd_kernel::laws::prelude::*;`.
 pub mod prelude {
     pub use super::{
-        Damper, Direction, Hinge, Interaction, Nothing, Quantity, Record, Seen, Springs, Turns,
-        Wrong,
+        Damper, Direction, ForcePair, Hinge, Interaction, NoStorage, Quantity, Seen, Springs,
+        Turns, Wrong,
     };
     pub use crate::space::{Linear as _, Moment as _, Space, Vector as _};
     pub use crate::words::{Word, WordSource, WordVisitor, Words};

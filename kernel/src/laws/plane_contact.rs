@@ -5,6 +5,7 @@
 //! motion since then extends it, and a boundary limits its force to the cone `μ·N`, as [`super::Slip`] does, so it
 //! dissipates energy at any step and holds without creep at rest. A moment `rolling·N` opposes the rolling.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
@@ -12,7 +13,6 @@ use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::laws::stop::{Stopped, check};
 use crate::laws::tabled::{drag, inverse_of_rate};
 use crate::real::Real;
-use crate::record::Record;
 use crate::space::{Linear, Moment as _, Vector as _};
 use crate::vector::Vec3;
 use crate::words::{Word, WordSource, WordVisitor, Words};
@@ -211,9 +211,13 @@ impl<P: Geometry> Interaction<P> for PlaneContact<P> {
     }
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, memory: &Held<P::Vector>) -> Option<Record<P::Space>> {
+    fn force_pair(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &Held<P::Vector>,
+    ) -> Option<ForcePair<P::Space>> {
         let touching = self.touching(seen, memory);
-        let normal = touching.stopped.record(seen);
+        let normal = touching.stopped.force_pair(seen);
         if !self.is_rough() {
             return Some(normal);
         }

@@ -11,13 +11,13 @@
 //! inductance `T = L/R`; the pair (v, τ) then advances half a step by the (0,2) Padé approximant of its matrix, stable
 //! at any step.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Inner, Springs, Wrong};
 use crate::laws::servo::Effort;
 use crate::real::Real;
-use crate::record::Record;
 use crate::schedule::Signal;
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
@@ -152,7 +152,11 @@ impl<P: Geometry> Geared<P> {
     }
 
     #[inline(always)]
-    pub(super) fn record(&self, seen: &Seen<'_, P>, rotor: &Rotor<P::Real>) -> Record<P::Space> {
+    pub(super) fn force_pair(
+        &self,
+        seen: &Seen<'_, P>,
+        rotor: &Rotor<P::Real>,
+    ) -> ForcePair<P::Space> {
         seen.pull(&self.coordinate.direction(seen), -self.pull(rotor))
     }
 

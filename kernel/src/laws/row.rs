@@ -1,12 +1,12 @@
 //! A row of a table for callers, and the operations on rows.
 
 use crate::elements::share::Share;
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::branch::Branch;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Inner, Quantity, Springs};
-use crate::record::Record;
 use crate::words::WordVisitor;
 
 /// The options of an evaluation of laws.
@@ -51,8 +51,8 @@ pub trait Row<P: Geometry> {
     fn bodies(&self) -> [BodyIndex; 2];
     /// The number of its dampers.
     fn dampers(&self) -> usize;
-    /// [`Interaction::record`](crate::laws::Interaction::record).
-    fn record(&self, seen: &Seen<'_, P>) -> Option<Record<P::Space>>;
+    /// [`Interaction::force_pair`](crate::laws::Interaction::record).
+    fn force_pair(&self, seen: &Seen<'_, P>) -> Option<ForcePair<P::Space>>;
     /// [`Interaction::energy`](crate::laws::Interaction::energy).
     fn energy(&self, seen: &Seen<'_, P>) -> P::Real;
     /// [`Interaction::tangent`](crate::laws::Interaction::tangent).

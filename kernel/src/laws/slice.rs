@@ -1,6 +1,7 @@
 //! The rows of one law, one after the other: common to all tables, wherever their rows are stored.
 
 use crate::elements::share::Share;
+use crate::force_pair::{ForcePair, Wrench, apply};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::branch::Branch;
@@ -11,7 +12,6 @@ use crate::laws::interaction::{
 };
 use crate::laws::row::{Act, DamperPass, Row};
 use crate::real::Real as _;
-use crate::record::{Record, Wrench, apply};
 use crate::words::{Word, WordSource, WordVisitor, Words as _};
 
 /// The weights of a row's dampers.
@@ -43,7 +43,7 @@ pub fn act<P: Geometry, T: Interaction<P>>(
         if act.settle {
             law.settle(&seen, state);
         }
-        let Some(mut record) = law.record(&seen, state) else { return Err(row) };
+        let Some(mut force_pair) = law.force_pair(&seen, state) else { return Err(row) };
         let mut branches = Branches::of(law, &seen, state);
         if act.damped && T::Dampers::COUNT > 0 {
             let own = if T::INNER { law.inner(state, P::Real::ZERO).rate } else { P::Real::ZERO };
@@ -56,14 +56,14 @@ pub fn act<P: Geometry, T: Interaction<P>>(
                     rate = rate + branches.rate(&seen);
                 }
                 let tension = damper.tension(rate);
-                record = record.with(&seen.pull(&damper.direction, tension));
+                force_pair = force_pair.with(&seen.pull(&damper.direction, tension));
                 if T::BRANCHES > 0 {
                     branches.pull(tension);
                 }
             });
         }
         let [a, b] = bodies.map(BodyIndex::row);
-        apply(wrenches, a, b, &record);
+        apply(wrenches, a, b, &force_pair);
         if T::BRANCHES > 0 {
             branches.apply(&seen, wrenches);
         }
@@ -197,8 +197,8 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
     fn dampers(&self) -> usize {
         T::Dampers::COUNT
     }
-    fn record(&self, seen: &Seen<'_, P>) -> Option<Record<P::Space>> {
-        self.law.record(seen, self.state)
+    fn force_pair(&self, seen: &Seen<'_, P>) -> Option<ForcePair<P::Space>> {
+        self.law.force_pair(seen, self.state)
     }
     fn energy(&self, seen: &Seen<'_, P>) -> P::Real {
         self.law.energy(seen, self.state)

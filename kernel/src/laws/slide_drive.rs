@@ -1,12 +1,12 @@
 //! A rotor behind a gear that translates one body relative to another: [`super::Rotor`] of the translation.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Inner, Interaction, Quantity, Springs, Wrong};
 use crate::laws::rotor::{Gear, Geared, Rotor};
 use crate::laws::servo::Effort;
-use crate::record::Record;
 
 law! {
     /// A translation of the second body relative to the first along an axis, driven by a rotor behind a gear.
@@ -84,8 +84,12 @@ impl<P: Geometry> Interaction<P> for SlideDrive<P> {
     }
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, memory: &Rotor<P::Real>) -> Option<Record<P::Space>> {
-        Some(self.geared(seen).record(seen, memory))
+    fn force_pair(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &Rotor<P::Real>,
+    ) -> Option<ForcePair<P::Space>> {
+        Some(self.geared(seen).force_pair(seen, memory))
     }
 
     fn energy(&self, seen: &Seen<'_, P>, memory: &Rotor<P::Real>) -> P::Real {

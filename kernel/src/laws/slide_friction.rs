@@ -1,11 +1,11 @@
 //! Dry friction of a translation along an axis, with sticking: [`super::Slip`] of the translation.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::laws::slip::{Friction, Rubbing, Slip};
-use crate::record::Record;
 
 law! {
     /// Dry friction between two bodies that slide along an axis.
@@ -60,8 +60,8 @@ impl<P: Geometry> Interaction<P> for SlideFriction<P> {
     }
 
     #[inline(always)]
-    fn record(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> Option<Record<P::Space>> {
-        Some(self.rubbing(seen, slip).record(seen))
+    fn force_pair(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> Option<ForcePair<P::Space>> {
+        Some(self.rubbing(seen, slip).force_pair(seen))
     }
 
     fn energy(&self, seen: &Seen<'_, P>, slip: &Slip<P::Real>) -> P::Real {

@@ -1,12 +1,12 @@
 //! A servo that translates one body relative to another: [`super::servo`] of the translation, as a damper with bounds.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
-use crate::laws::interaction::{Damper, Interaction, Nothing, Quantity, Springs, Wrong};
+use crate::laws::interaction::{Damper, Interaction, NoStorage, Quantity, Springs, Wrong};
 use crate::laws::servo::{Effort, Servo};
 use crate::real::Real;
-use crate::record::Record;
 
 law! {
     /// A translation of the second body relative to the first along an axis, driven by a servo without a rotor.
@@ -44,27 +44,27 @@ impl<P: Geometry> SlideServo<P> {
 }
 
 impl<P: Geometry> Interaction<P> for SlideServo<P> {
-    type State = Nothing;
+    type State = NoStorage;
     type Dampers = [(); 1];
     const DRIVES: bool = true;
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "effort", unit: "N" }];
 
     #[inline(always)]
-    fn record(&self, _: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
-        Some(Record::ZERO)
+    fn force_pair(&self, _: &Seen<'_, P>, _: &NoStorage) -> Option<ForcePair<P::Space>> {
+        Some(ForcePair::ZERO)
     }
 
-    fn energy(&self, _: &Seen<'_, P>, _: &Nothing) -> P::Real {
+    fn energy(&self, _: &Seen<'_, P>, _: &NoStorage) -> P::Real {
         P::Real::ZERO
     }
 
-    fn tangent(&self, seen: &Seen<'_, P>, _: &Nothing, visit: Springs<'_, P>) -> [P::Real; 2] {
+    fn tangent(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: Springs<'_, P>) -> [P::Real; 2] {
         let servo = self.servo(seen);
         servo.tangent(seen, visit)
     }
 
     #[inline(always)]
-    fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
+    fn dampers(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: &mut impl FnMut(Damper<P>)) {
         let servo = self.servo(seen);
         visit(servo.damper(seen));
     }
@@ -75,7 +75,7 @@ impl<P: Geometry> Interaction<P> for SlideServo<P> {
         self.effort().check()
     }
 
-    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &Nothing) -> P::Real {
+    fn read(&self, _: usize, seen: &Seen<'_, P>, _: &NoStorage) -> P::Real {
         let servo = self.servo(seen);
         servo.effort(seen)
     }

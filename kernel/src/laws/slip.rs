@@ -6,12 +6,12 @@
 //! `F(v) = coulomb + (breakaway − coulomb)/(1 + (v/stribeck)²)` (Hess & Soom, J. Tribology 112 (1990) 147) at the mean
 //! rate of the last step.
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Springs, Wrong};
 use crate::real::Real;
-use crate::record::Record;
 use crate::words::{WordSource, WordVisitor, Words};
 
 /// The memory of friction on its coordinate.
@@ -111,7 +111,7 @@ impl<P: Geometry> Rubbing<P> {
     }
 
     #[inline(always)]
-    pub(super) fn record(&self, seen: &Seen<'_, P>) -> Record<P::Space> {
+    pub(super) fn force_pair(&self, seen: &Seen<'_, P>) -> ForcePair<P::Space> {
         seen.pull(&self.coordinate.direction(seen), self.tension)
     }
 

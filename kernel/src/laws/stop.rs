@@ -3,12 +3,12 @@
 //! `(coordinate, x beyond its range, stiffness k, coefficient a) => tension k·x·(1 + a·|ẋ|)`, which never pulls towards
 //! the end (Hunt & Crossley, J. Appl. Mech. 42 (1975) 440).
 
+use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Springs, Wrong};
 use crate::real::Real;
-use crate::record::Record;
 
 /// A coordinate at its stop.
 pub(super) struct Stopped<P: Geometry> {
@@ -35,9 +35,9 @@ impl<P: Geometry> Stopped<P> {
 
     /// The record of its spring.
     #[inline(always)]
-    pub(super) fn record(&self, seen: &Seen<'_, P>) -> Record<P::Space> {
+    pub(super) fn force_pair(&self, seen: &Seen<'_, P>) -> ForcePair<P::Space> {
         if self.is_free() {
-            return Record::ZERO;
+            return ForcePair::ZERO;
         }
         seen.pull(&self.coordinate.direction(seen), self.stiffness * self.beyond)
     }

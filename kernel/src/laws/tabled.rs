@@ -4,13 +4,13 @@
 //! a damper acts as its tangent at the initial rate r, `F(r) + F'(r)·(ṙ − r)`, so the order is 2, and at most stops the
 //! rate, so it is stable at any step.
 
+use crate::force_pair::{Direction, ForcePair};
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::curve::Curve;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Springs, Wrong};
 use crate::real::Real;
-use crate::record::{Direction, Record};
 
 /// A spring of a coordinate.
 pub(super) struct Spring<'c, P: Geometry, const N: usize> {
@@ -33,7 +33,7 @@ impl<P: Geometry, const N: usize> Spring<'_, P, N> {
     }
 
     #[inline(always)]
-    pub(super) fn record(&self, seen: &Seen<'_, P>) -> Record<P::Space> {
+    pub(super) fn force_pair(&self, seen: &Seen<'_, P>) -> ForcePair<P::Space> {
         seen.pull(&self.coordinate.direction(seen), self.tension())
     }
 

@@ -5,7 +5,7 @@ use crate::index::BodyIndex;
 use crate::laws::hinge::Hinge;
 
 /// The largest number of terms of a sum.
-pub const MOST_TERMS: usize = 3;
+pub const MAX_TERMS: usize = 3;
 
 /// A coordinate of two bodies and its factor in a sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,12 +15,12 @@ pub struct Term<P: Geometry = F64> {
     /// \[unit of the sum per m or rad\]
     pub factor: P::Real,
     /// The coordinate.
-    pub way: Way<P>,
+    pub way: CoordinateKind<P>,
 }
 
 /// The kinds of coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Way<P: Geometry = F64> {
+pub enum CoordinateKind<P: Geometry = F64> {
     /// \[rad\] the angle of B in A about an axis since t = 0.
     Turn(Hinge<P::Space>),
     /// \[m\] the displacement of B's point from A's along an axis of A.

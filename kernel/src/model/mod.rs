@@ -26,7 +26,7 @@ pub use crate::elements::element::Law;
 use crate::elements::input::{Input, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
-use crate::elements::point_law::{PointLaw as _, Stretch};
+use crate::elements::point_law::{Deformation, PointLaw as _};
 use crate::elements::point_on_line::PointOnLine;
 use crate::elements::revolute::Revolute;
 use crate::elements::source::Source;
@@ -53,7 +53,7 @@ pub struct Group {
     /// Second body.
     pub b: BodyIndex,
     /// Points of the first body, ≥ 1.
-    pub stars: u8,
+    pub triples: u8,
     /// Points of the second body per triple: 1 to 3; 1 or 2 on a line.
     pub arms: u8,
     /// Whether all triples share the second body's points.
@@ -72,27 +72,27 @@ impl Group {
     /// The number of elements.
     #[must_use]
     pub const fn elements(&self) -> usize {
-        self.stars as usize * self.arms as usize
+        self.triples as usize * self.arms as usize
     }
 
     /// The number of points.
     #[must_use]
     pub const fn points(&self) -> usize {
-        let blocks = if self.shared { 1 } else { self.stars as usize };
-        self.stars as usize + blocks * self.arms as usize
+        let blocks = if self.shared { 1 } else { self.triples as usize };
+        self.triples as usize + blocks * self.arms as usize
     }
 
     /// The row of a triple's first point among the model's points.
     #[inline(always)]
-    pub(crate) const fn centre(&self, star: usize) -> usize {
-        self.point as usize + star
+    pub(crate) const fn centre(&self, triple: usize) -> usize {
+        self.point as usize + triple
     }
 
     /// The row of a triple's first point of the second body; its others follow.
     #[inline(always)]
-    pub(crate) const fn tips(&self, star: usize) -> usize {
-        let block = if self.shared { 0 } else { star };
-        self.point as usize + self.stars as usize + block * self.arms as usize
+    pub(crate) const fn endpoints(&self, triple: usize) -> usize {
+        let block = if self.shared { 0 } else { triple };
+        self.point as usize + self.triples as usize + block * self.arms as usize
     }
 }
 
@@ -191,14 +191,14 @@ impl<'m, P: Geometry, T: Terms<P>> ModelRef<'m, P, T> {
     pub(crate) fn damped(
         &self,
         law: Law,
-        stretch: &Stretch<P::Vector>,
+        deformation: &Deformation<P::Vector>,
     ) -> Option<([P::Vector; 3], usize)> {
         match law {
-            Law::Tsda if T::TSDAS => Some(Tsda::damped(stretch)),
-            Law::PointBushing if T::BUSHINGS => Some(PointBushing::damped(stretch)),
-            Law::PointOnLine if T::LINES => Some(PointOnLine::<P::Space>::damped(stretch)),
-            Law::Revolute if T::REVOLUTES => Some(Revolute::<P::Space>::damped(stretch)),
-            Law::Universal if T::UNIVERSALS => Some(Universal::<P::Space>::damped(stretch)),
+            Law::Tsda if T::TSDAS => Some(Tsda::damped(deformation)),
+            Law::PointBushing if T::BUSHINGS => Some(PointBushing::damped(deformation)),
+            Law::PointOnLine if T::LINES => Some(PointOnLine::<P::Space>::damped(deformation)),
+            Law::Revolute if T::REVOLUTES => Some(Revolute::<P::Space>::damped(deformation)),
+            Law::Universal if T::UNIVERSALS => Some(Universal::<P::Space>::damped(deformation)),
             _ => None,
         }
     }
@@ -234,7 +234,7 @@ pub trait ModelOwner {
     /// Memory of one `T` per pair of bodies of the elimination order, see [`Self::plan`].
     type PerPair<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per group, torsion spring and law of the elimination order.
-    type PerHome<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
+    type PerSlot<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one `T` per TSDA.
     type PerTsda<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
     /// Memory of one knot in steps per knot.
@@ -261,7 +261,7 @@ pub trait ModelOwner {
     /// One `value` per pair of bodies of the elimination order.
     fn per_pair<T: Copy>(&self, value: T) -> Self::PerPair<T>;
     /// One `value` per group, torsion spring and law of the elimination order.
-    fn per_home<T: Copy>(&self, value: T) -> Self::PerHome<T>;
+    fn per_slot<T: Copy>(&self, value: T) -> Self::PerSlot<T>;
     /// The order in which a scheme with a matrix eliminates the bodies; empty where the model was built without one,
     /// see [`Planned`].
     fn plan(&self) -> Plan<'_> {

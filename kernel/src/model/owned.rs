@@ -142,7 +142,7 @@ impl<
         while i < GROUPS {
             let group = &self.groups[i];
             check_pair(group.a, group.b, BODIES);
-            assert!(group.stars >= 1, "a group needs at least one spring triple");
+            assert!(group.triples >= 1, "a group needs at least one spring triple");
             assert!(
                 group.law.takes_arms(group.arms),
                 "the law does not accept this number of legs"
@@ -320,7 +320,7 @@ impl<
     type PerDamper<T: Copy> = [T; DAMPERS];
     type PerTsda<T: Copy> = [T; TSDAS];
     type PerPair<T: Copy> = [T; 0];
-    type PerHome<T: Copy> = [T; 0];
+    type PerSlot<T: Copy> = [T; 0];
     type PerKnot = [KnotStep<P::Real>; KNOTS];
     type PerSource = [SourceStep; SOURCES];
 
@@ -392,7 +392,7 @@ impl<
     }
 
     #[inline]
-    fn per_home<T: Copy>(&self, _: T) -> [T; 0] {
+    fn per_slot<T: Copy>(&self, _: T) -> [T; 0] {
         []
     }
 
@@ -411,18 +411,18 @@ impl<
 mod tests {
     use super::*;
     use crate::geometry::F32;
-    use crate::sketch::{Sketch, Spring, Start};
+    use crate::model_spec::{ModelSpec, Spring, Start};
 
-    const fn hung(damping: f64) -> Sketch {
+    const fn hung(damping: f64) -> ModelSpec {
         let spring = Spring { stiffness: 1e3, damping, free_length: 1.0 };
-        Sketch::new()
+        ModelSpec::new()
             .body(1.0, [0.1; 3], Start::at([1.0, 0.0, 0.0]))
             .body(1.0, [0.1; 3], Start::at([3.0, 0.0, 0.0]))
             .tsda([BodyIndex::WORLD, BodyIndex(0)], [[0.0; 3]; 2], spring)
     }
 
-    const BARE: Sketch = hung(0.0);
-    const DAMPED: Sketch = hung(1.0);
+    const BARE: ModelSpec = hung(0.0);
+    const DAMPED: ModelSpec = hung(1.0);
     crate::model!(static BARE_F32: F32 = BARE);
     crate::model!(static DAMPED_F32: F32 = DAMPED);
 

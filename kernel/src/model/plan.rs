@@ -1,6 +1,6 @@
 //! The elimination order of the bodies, and the fill-in of pairs.
 //!
-//! `(order, pairs, targets, homes) => plan`, plain index arrays stored in flash with the model. Computed when a model
+//! `(order, pairs, targets, slots) => plan`, plain index arrays stored in flash with the model. Computed when a model
 //! is built; here they are only checked and used.
 
 /// The blocks of a model's matrix, and the order in which its bodies are eliminated.
@@ -16,14 +16,14 @@ pub struct Plan<'m> {
     /// (third, second) …: the pair that their product changes.
     pub targets: &'m [u16],
     /// For each group and then each torsion spring the slot of its bodies' pair; [`Plan::GROUND`] with the ground.
-    pub homes: &'m [u16],
+    pub slots: &'m [u16],
 }
 
 impl Plan<'_> {
     /// The slot of an element with one body only.
     pub const GROUND: u16 = u16::MAX;
     /// The empty plan.
-    pub const NONE: Self = Self { order: &[], pairs: &[], targets: &[], homes: &[] };
+    pub const NONE: Self = Self { order: &[], pairs: &[], targets: &[], slots: &[] };
 
     /// Whether it is valid for a model with the given number of bodies, and for these ends of its groups and torsion
     /// springs: then a solution by it is that of the whole matrix.
@@ -45,18 +45,18 @@ impl Plan<'_> {
             }
             last = Some(now);
         }
-        let mut homes = self.homes.iter();
+        let mut slots = self.slots.iter();
         for [a, b] in ends {
-            let Some(&home) = homes.next() else { return false };
-            let held = match self.pairs.get(usize::from(home)) {
+            let Some(&slot) = slots.next() else { return false };
+            let held = match self.pairs.get(usize::from(slot)) {
                 Some(pair) => *pair == [a, b] || *pair == [b, a],
-                None => home == Self::GROUND && (is_ground(a) || is_ground(b)),
+                None => slot == Self::GROUND && (is_ground(a) || is_ground(b)),
             };
             if !held {
                 return false;
             }
         }
-        homes.next().is_none() && self.counts_fit() && self.targets_fit()
+        slots.next().is_none() && self.counts_fit() && self.targets_fit()
     }
 
     fn counts_fit(&self) -> bool {
@@ -92,7 +92,7 @@ mod tests {
         order: &[[0, 2], [1, 2], [2, 1], [3, 0]],
         pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
         targets: &[3, 4],
-        homes: &[Plan::GROUND, 0, 2, 4, 1],
+        slots: &[Plan::GROUND, 0, 2, 4, 1],
     };
     const ENDS: [[u16; 2]; 5] = [[u16::MAX, 0], [0, 1], [2, 1], [2, 3], [3, 0]];
 
@@ -108,12 +108,12 @@ mod tests {
         assert!(!Plan { order, ..RING }.fits(4, ENDS.into_iter()));
         assert!(!Plan { targets: &[3], ..RING }.fits(4, ENDS.into_iter()));
         assert!(!Plan { targets: &[4, 3], ..RING }.fits(4, ENDS.into_iter()));
-        assert!(!Plan { homes: &[Plan::GROUND, 0, 2, 4, 2], ..RING }.fits(4, ENDS.into_iter()));
+        assert!(!Plan { slots: &[Plan::GROUND, 0, 2, 4, 2], ..RING }.fits(4, ENDS.into_iter()));
         // Fill-in without a slot.
         let order = &[[0, 2], [1, 1], [2, 1], [3, 0]];
         let unfilled = Plan { order, pairs: &[[0, 1], [0, 3], [1, 2], [2, 3]], ..RING };
-        let homes = &[Plan::GROUND, 0, 2, 3, 1];
-        let unfilled = Plan { targets: &[3], homes, ..unfilled };
+        let slots = &[Plan::GROUND, 0, 2, 3, 1];
+        let unfilled = Plan { targets: &[3], slots, ..unfilled };
         assert!(!unfilled.fits(4, ENDS.into_iter()));
     }
 }

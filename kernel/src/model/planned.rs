@@ -16,7 +16,7 @@ pub struct Planned<
     const ORDER: usize,
     const PAIRS: usize,
     const TARGETS: usize,
-    const HOMES: usize,
+    const SLOTS: usize,
 > {
     /// The model, by any pointer: `&M` for one in flash.
     pub model: H,
@@ -26,12 +26,12 @@ pub struct Planned<
     pub pairs: [[u16; 2]; PAIRS],
     /// [`Plan::targets`].
     pub targets: [u16; TARGETS],
-    /// [`Plan::homes`].
-    pub homes: [u16; HOMES],
+    /// [`Plan::slots`].
+    pub slots: [u16; SLOTS],
 }
 
-impl<H, const O: usize, const PAIRS: usize, const T: usize, const HOMES: usize> ModelOwner
-    for Planned<H, O, PAIRS, T, HOMES>
+impl<H, const O: usize, const PAIRS: usize, const T: usize, const SLOTS: usize> ModelOwner
+    for Planned<H, O, PAIRS, T, SLOTS>
 where
     H: Deref<Target: ModelOwner + Sized>,
 {
@@ -45,7 +45,7 @@ where
     type PerDamper<V: Copy> = <H::Target as ModelOwner>::PerDamper<V>;
     type PerTsda<V: Copy> = <H::Target as ModelOwner>::PerTsda<V>;
     type PerPair<V: Copy> = [V; PAIRS];
-    type PerHome<V: Copy> = [V; HOMES];
+    type PerSlot<V: Copy> = [V; SLOTS];
     type PerKnot = <H::Target as ModelOwner>::PerKnot;
     type PerSource = <H::Target as ModelOwner>::PerSource;
 
@@ -101,13 +101,13 @@ where
     }
 
     #[inline]
-    fn per_home<V: Copy>(&self, value: V) -> [V; HOMES] {
-        [value; HOMES]
+    fn per_slot<V: Copy>(&self, value: V) -> [V; SLOTS] {
+        [value; SLOTS]
     }
 
     #[inline]
     fn plan(&self) -> Plan<'_> {
-        Plan { order: &self.order, pairs: &self.pairs, targets: &self.targets, homes: &self.homes }
+        Plan { order: &self.order, pairs: &self.pairs, targets: &self.targets, slots: &self.slots }
     }
 
     #[inline]

@@ -5,7 +5,7 @@
 use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
-use crate::damping::{Held, Lever, Pose, Share, find, share, weigh};
+use crate::damping::{DampingMode, Held, Pose, Share, find, share, weigh};
 use crate::elements::input::{Input, InputKind};
 use crate::extents::first_excess;
 use crate::forces::{Unpushed, Wrench, are_in_line, find_rests};
@@ -19,11 +19,11 @@ use crate::real::{Constant, Real};
 use crate::refusal::{InputError, PlantError, StateError};
 use crate::schedule::{KnotStep, LoadWindow, Signal, StageTime, sample};
 use crate::sensors::sample_over;
-use crate::solve::{self, Pencil, Seat};
+use crate::solve::{self, LumpedJoint, MatrixWeights};
 use crate::sources::{self, SourceStep};
 use crate::state::State;
 use crate::status::{Cause, Failure, Status};
-use crate::step::{Diagonal, Ledger};
+use crate::step::{Cache, Diagonal};
 use crate::words::{Finite, is_finite};
 
 /// A model, a step and a state.
@@ -48,7 +48,7 @@ where
     pub(crate) sums:
         <H::Target as ModelOwner>::PerDampedBody<<PrecisionOf<H> as Geometry>::PassSum>,
     pub(crate) in_line: bool,
-    pub(crate) ledger: Ledger,
+    pub(crate) cache: Cache,
     pub(crate) status: Status,
 }
 
@@ -131,7 +131,7 @@ where
             unpushed,
             sums,
             in_line,
-            ledger: Ledger::default(),
+            cache: Cache::default(),
             status: Status::Running,
         })
     }
@@ -153,15 +153,15 @@ where
     }
 
     /// The damping modes of joints that are damped as a whole.
-    pub(crate) fn find_levers(&mut self, levers: &mut [Lever<PrecisionOf<H>>]) {
+    pub(crate) fn find_modes(&mut self, modes: &mut [DampingMode<PrecisionOf<H>>]) {
         place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
         let places = Places { frames: self.frames.as_ref(), signals: self.state.signals.as_ref() };
         let half = RealOf::<H::Target>::HALF * self.h;
-        self.ledger.stops = find(&self.model.view(), places, half, levers);
+        self.cache.stops = find(&self.model.view(), places, half, modes);
     }
 
     /// The weight of each damper, and the damping modes of joints that are damped as a whole.
-    pub(crate) fn find_shares(&mut self, levers: &mut [Lever<PrecisionOf<H>>]) {
+    pub(crate) fn find_shares(&mut self, modes: &mut [DampingMode<PrecisionOf<H>>]) {
         place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
         let view = self.model.view();
         let (bodies, signals) = (self.state.bodies.as_ref(), self.state.signals.as_ref());
@@ -170,9 +170,9 @@ where
         let mut held = self.model.per_body(Held::default());
         let shares = self.shares.as_mut();
         let memories = (self.state.turns.as_ref(), &self.state.laws);
-        let pose = Pose { model: &view, places, bodies, memories, levers: &*levers };
+        let pose = Pose { model: &view, places, bodies, memories, modes: &*modes };
         share(&pose, held.as_mut(), (&mut *shares, &mut self.law_shares));
-        weigh(&view, shares, half, levers);
+        weigh(&view, shares, half, modes);
     }
 
     /// Refuses frequencies for which `ω·h` exceeds `most`.
@@ -187,14 +187,14 @@ where
     }
 
     /// Each element's part of the matrix, from the matrix weights.
-    pub(crate) fn find_seats(
+    pub(crate) fn find_lumped_joints(
         &mut self,
-        pencil: Pencil<RealOf<H::Target>>,
-        seats: &mut [Seat<SpaceOf<H::Target>>],
+        matrix_weights: MatrixWeights<RealOf<H::Target>>,
+        lumped_joints: &mut [LumpedJoint<SpaceOf<H::Target>>],
     ) {
         place_bodies(self.state.bodies.as_ref(), self.frames.as_mut());
         let places = Places { frames: self.frames.as_ref(), signals: self.state.signals.as_ref() };
-        solve::find(&self.model.view(), places, pencil, seats);
+        solve::find(&self.model.view(), places, matrix_weights, lumped_joints);
     }
 
     /// Samples the signals of tables for the coming step.
@@ -228,8 +228,8 @@ where
     /// Records that an input has a new signal.
     #[inline(always)]
     fn change(&mut self, moves_ground: bool) {
-        self.ledger.pushed = false;
-        self.ledger.fresh &= !(moves_ground || self.model.view().laws.is_driven());
+        self.cache.pushed = false;
+        self.cache.fresh &= !(moves_ground || self.model.view().laws.is_driven());
     }
 
     /// The signals of the inputs at `part` of the coming step, 0 to 1, for its stages. At 1 they are those before a
@@ -250,9 +250,9 @@ where
     /// Latches a failure.
     #[cold]
     pub(crate) fn fail(&mut self, cause: Cause) -> Status {
-        self.ledger.fresh = false;
-        self.ledger.ready = false;
-        self.ledger.begun = false;
+        self.cache.fresh = false;
+        self.cache.ready = false;
+        self.cache.begun = false;
         self.status = Status::Failed(Failure { cause, step: self.state.step });
         self.status
     }
@@ -329,10 +329,10 @@ where
     /// Continues from a state of this model without a check; clears a failure.
     pub(crate) fn resume(&mut self, state: State<H::Target>) {
         self.state = state;
-        self.ledger.fresh = false;
-        self.ledger.ready = false;
-        self.ledger.moved = false;
-        self.ledger.begun = false;
+        self.cache.fresh = false;
+        self.cache.ready = false;
+        self.cache.moved = false;
+        self.cache.begun = false;
         self.status = Status::Running;
         self.sample();
     }

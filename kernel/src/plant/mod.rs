@@ -11,14 +11,14 @@ use core::ops::Deref;
 use crate::damping::Damping;
 use crate::guards::{first_beyond, first_fault};
 use crate::index::InputIndex;
-use crate::keep::{Keep, Kept};
+use crate::keep::{Kept, Storage};
 use crate::model::{ModelOwner, ModelRef, RealOf};
 use crate::pose::Places;
 use crate::real::Real;
 pub use crate::refusal::{InputError, PlantError, StateError};
 use crate::schemes::Scheme;
 use crate::state::State;
-use crate::status::{Cause, MOST_TURN, Status};
+use crate::status::{Cause, MAX_TURN, Status};
 use crate::step::{Stepper, Workspace};
 
 use base::{Base, PerBody, SignalsOf};
@@ -31,7 +31,7 @@ where
 {
     pub(crate) base: Base<H>,
     scheme: S,
-    kept: Kept<S::Keeps, H::Target>,
+    kept: Kept<S::Storage, H::Target>,
     memory: MemoryOf<H, S>,
 }
 
@@ -53,24 +53,24 @@ where
     pub fn new(model: H, scheme: S, step_size: f64) -> Result<Self, PlantError> {
         let mut base = Base::new(model, step_size)?;
         base.check_memory(S::bears)?;
-        if S::Keeps::MATRIX && !base::is_planned(&*base.model) {
+        if S::Storage::MATRIX && !base::is_planned(&*base.model) {
             return Err(PlantError::Plan);
         }
-        let mut kept = S::Keeps::memory(&*base.model);
+        let mut kept = S::Storage::memory(&*base.model);
         if !matches!(S::DAMPING, Damping::Explicit | Damping::Implicit) && base.is_damped() {
             if S::DAMPING == Damping::JointWise {
-                base.find_levers(kept.levers.as_mut());
+                base.find_modes(kept.modes.as_mut());
             }
-            base.find_shares(kept.levers.as_mut());
+            base.find_shares(kept.modes.as_mut());
         }
-        if S::Keeps::MATRIX {
-            if let Some(most) = S::MOST_VIBRATION {
+        if S::Storage::MATRIX {
+            if let Some(most) = S::MAX_VIBRATION {
                 base.check_stiffness(most)?;
             }
-            base.find_seats(scheme.pencil(base.h), kept.seats.as_mut());
-            if S::Keeps::HALVES {
-                let pencil = scheme.pencil(RealOf::<H::Target>::HALF * base.h);
-                base.find_seats(pencil, kept.half_seats.as_mut());
+            base.find_lumped_joints(scheme.matrix_weights(base.h), kept.lumped_joints.as_mut());
+            if S::Storage::HALVES {
+                let matrix_weights = scheme.matrix_weights(RealOf::<H::Target>::HALF * base.h);
+                base.find_lumped_joints(matrix_weights, kept.half_lumped_joints.as_mut());
             }
         }
         let memory = base.model.per_body(S::Memory::default());
@@ -130,10 +130,10 @@ where
             diagonals: self.base.diagonals.as_ref(),
             rests: self.base.rests.as_ref(),
             shares: self.base.shares.as_ref(),
-            levers: self.kept.levers.as_mut(),
+            modes: self.kept.modes.as_mut(),
             plan: self.base.model.plan(),
-            seats: self.kept.seats.as_ref(),
-            half_seats: self.kept.half_seats.as_ref(),
+            lumped_joints: self.kept.lumped_joints.as_ref(),
+            half_lumped_joints: self.kept.half_lumped_joints.as_ref(),
             blocks: self.kept.bodies.as_mut(),
             pair_blocks: self.kept.pairs.as_mut(),
             windows: self.base.windows.as_ref(),
@@ -150,7 +150,7 @@ where
             unpushed: self.base.unpushed.as_mut(),
             sums: self.base.sums.as_mut(),
             in_line: self.base.in_line,
-            ledger: &mut self.base.ledger,
+            cache: &mut self.base.cache,
         };
         self.scheme.step(&mut Stepper { workspace, memory: self.memory.as_mut() })
     }
@@ -180,9 +180,9 @@ where
     #[must_use]
     pub fn fault(&self) -> Option<Cause> {
         let (bodies, turns) = (self.base.state.bodies.as_ref(), self.base.state.turns.as_ref());
-        let limits = (self.base.h, S::MOST_TURN);
+        let limits = (self.base.h, S::MAX_TURN);
         match first_fault::<_, <H::Target as ModelOwner>::Terms>(bodies, turns, limits) {
-            Some(Cause::Spin { body }) if S::MOST_TURN.single < MOST_TURN as f32 => {
+            Some(Cause::Spin { body }) if S::MAX_TURN.single < MAX_TURN as f32 => {
                 Some(Cause::Turn { body })
             }
             None => first_beyond(bodies),
@@ -257,7 +257,7 @@ where
 
     /// Returns to t = 0, as after [`Self::new`]: the model's initial state, a failure cleared.
     pub fn reset(&mut self) {
-        self.base.ledger.evaluations = 0;
+        self.base.cache.evaluations = 0;
         self.resume(State::initial(&*self.base.model));
     }
 
@@ -302,7 +302,7 @@ where
 
     /// Force evaluations performed since t = 0.
     pub fn evaluations(&self) -> u64 {
-        self.base.ledger.evaluations
+        self.base.cache.evaluations
     }
 
     /// Continues from a state of this model without a check, a failure cleared: [`Self::set_state`] for a state of a
@@ -313,7 +313,7 @@ where
 
     /// The scheme's memory of the bodies, where it belongs to the present state.
     pub(crate) fn remembered(&self) -> Option<&MemoryOf<H, S>> {
-        (S::REMEMBERS && self.base.ledger.begun).then_some(&self.memory)
+        (S::REMEMBERS && self.base.cache.begun).then_some(&self.memory)
     }
 
     /// Continues from a state with the scheme's memory of it.
@@ -321,7 +321,7 @@ where
         self.resume(state);
         if let Some(memory) = memory {
             self.memory = memory;
-            self.base.ledger.begun = true;
+            self.base.cache.begun = true;
         }
     }
 

@@ -79,9 +79,9 @@ fn the_rotor_of_order_four_is_of_order_four_whichever_axis_is_the_middle() {
     let values = [0.5, 0.7, 1.1];
     for [i, j, k] in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
         let inertia = [values[i], values[j], values[k]];
-        let (truth, _) = tumbled(inertia, 0.002);
+        let (mask, _) = tumbled(inertia, 0.002);
         let (coarse, momentum) = tumbled(inertia, 0.1);
-        let order = libm::log2(apart(coarse, truth) / apart(tumbled(inertia, 0.05).0, truth));
+        let order = libm::log2(apart(coarse, mask) / apart(tumbled(inertia, 0.05).0, mask));
         assert!((order - 4.0).abs() < 0.1, "{inertia:?}: {order}");
         let start = Vec3::from_f64(inertia).scale(Vec3::new(1.3, -0.9, 2.1));
         let change = momentum - start;

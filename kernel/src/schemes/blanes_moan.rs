@@ -9,7 +9,7 @@
 use crate::compositions::BLANES_MOAN_S6;
 use crate::damping::Damping;
 use crate::geometry::Geometry;
-use crate::keep::Nothing;
+use crate::keep::NoStorage;
 use crate::model::Terms;
 use crate::schemes::Scheme;
 use crate::schemes::compose::compose;
@@ -28,7 +28,7 @@ impl Scheme for BlanesMoanS6 {
     const DAMPING: Damping = Damping::Sweeps;
     const SETTLES: bool = false;
     type Memory<P: Geometry> = ();
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         BLANES_MOAN_S6.kicks.len() as u32

@@ -11,7 +11,7 @@ use crate::body::{BodyState, Increment};
 use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
-use crate::keep::Nothing;
+use crate::keep::NoStorage;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::rotation;
@@ -83,7 +83,7 @@ impl Scheme for Dbd {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = DbdMemory<P>;
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         3 + self.newton

@@ -9,7 +9,7 @@
 use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
-use crate::keep::Nothing;
+use crate::keep::NoStorage;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::schemes::dbd::iterate;
@@ -34,7 +34,7 @@ impl Scheme for DbdP1 {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = DbdMemory<P>;
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         2 + self.newton

@@ -9,7 +9,7 @@
 use crate::damping::Damping;
 use crate::forces::{Dampers, ExplicitDampers};
 use crate::geometry::Geometry;
-use crate::keep::Nothing;
+use crate::keep::NoStorage;
 use crate::model::Terms;
 use crate::schemes::Scheme;
 use crate::status::Cause;
@@ -42,7 +42,7 @@ impl<S: Kicked> Scheme for Explicit<S> {
     const DAMPING: Damping = Damping::Explicit;
     const ADVANCES: bool = S::ADVANCES;
     type Memory<P: Geometry> = S::Memory<P>;
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         S::EXPLICIT_EVALUATIONS

@@ -30,7 +30,7 @@ use crate::schemes::Scheme;
 use crate::schemes::generalized_alpha::{
     GeneralizedAlpha, GeneralizedAlphaMemory, Part, Remembers,
 };
-use crate::solve::Pencil;
+use crate::solve::MatrixWeights;
 use crate::space::{Linear as _, Moment as _, Space, Turn as _};
 use crate::status::Cause;
 use crate::step::Stepper;
@@ -75,10 +75,10 @@ impl Scheme for GeneralizedAlpha3 {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Implicit;
     const REMEMBERS: bool = true;
-    const MOST_TURN: Constant = GeneralizedAlpha::MOST_TURN;
-    const MOST_VIBRATION: Option<Constant> = GeneralizedAlpha::MOST_VIBRATION;
+    const MAX_TURN: Constant = GeneralizedAlpha::MAX_TURN;
+    const MAX_VIBRATION: Option<Constant> = GeneralizedAlpha::MAX_VIBRATION;
     type Memory<P: Geometry> = GeneralizedAlpha3Memory<P>;
-    type Keeps = Matrices;
+    type Storage = Matrices;
 
     fn evaluations(&self) -> u32 {
         3
@@ -89,8 +89,8 @@ impl Scheme for GeneralizedAlpha3 {
     }
 
     #[inline(always)]
-    fn pencil<R: Real>(&self, h: R) -> Pencil<R> {
-        STEPS.pencil(h)
+    fn matrix_weights<R: Real>(&self, h: R) -> MatrixWeights<R> {
+        STEPS.matrix_weights(h)
     }
 
     fn visit_memory<P: Geometry>(memory: &Self::Memory<P>, visitor: &mut impl WordVisitor) {
@@ -119,13 +119,13 @@ impl Scheme for GeneralizedAlpha3 {
         stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
     ) -> Result<(), Cause> {
         let jumps = stepper.ground_jumps();
-        let begins = !stepper.ledger.begun || jumps;
+        let begins = !stepper.cache.begun || jumps;
         let (h, half, one) = (stepper.h, P::Real::HALF, P::Real::ONE);
         let states = stepper.workspace.bodies.iter();
         // The first step has a larger error: the second subtracts what the first adds in advance, so that the sum is
         // right.
         for (memory, state) in stepper.memory.iter_mut().zip(states) {
-            if !stepper.workspace.ledger.begun {
+            if !stepper.workspace.cache.begun {
                 *memory = GeneralizedAlpha3Memory::default();
             }
             memory.kept = *state;
@@ -144,7 +144,7 @@ impl Scheme for GeneralizedAlpha3 {
             STEPS.advance(stepper, part)?;
         }
         extrapolate(stepper);
-        stepper.ledger.begun = true;
+        stepper.cache.begun = true;
         Ok(())
     }
 }
@@ -201,7 +201,7 @@ fn filter<P: Geometry, T: Terms<P>>(
     stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlpha3Memory<P>>,
     difference: impl Fn(&BodyState<P>, &BodyState<P>) -> Increment<P::Space>,
 ) {
-    let Pencil { mass, .. } = STEPS.pencil(stepper.h);
+    let MatrixWeights { mass, .. } = STEPS.matrix_weights(stepper.h);
     for again in [false, true] {
         let Stepper { workspace, memory } = stepper;
         let rows = workspace.bodies.iter().zip(workspace.model.bodies).zip(memory.iter());

@@ -37,7 +37,7 @@ use crate::model::Terms;
 use crate::real::{Constant, Real};
 use crate::rotation;
 use crate::schemes::Scheme;
-use crate::solve::Pencil;
+use crate::solve::MatrixWeights;
 use crate::space::{Moment as _, Space};
 use crate::status::Cause;
 use crate::step::Stepper;
@@ -65,7 +65,7 @@ pub struct GeneralizedAlpha {
     rest_of_first: Constant,
 }
 
-/// An invalid ρ∞: not from 0 to [`GeneralizedAlpha::MOST_RHO`].
+/// An invalid ρ∞: not from 0 to [`GeneralizedAlpha::MAX_RHO`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct RhoError(
@@ -75,7 +75,7 @@ pub struct RhoError(
 
 impl core::fmt::Display for RhoError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "rho must be from 0 to {}, not {}", GeneralizedAlpha::MOST_RHO, self.0)
+        write!(f, "rho must be from 0 to {}, not {}", GeneralizedAlpha::MAX_RHO, self.0)
     }
 }
 
@@ -90,14 +90,14 @@ impl GeneralizedAlpha {
         Err(_) => unreachable!(),
     };
     /// The largest ρ∞: above it the error of a single Newton step is damped too little.
-    pub const MOST_RHO: f64 = 0.8;
+    pub const MAX_RHO: f64 = 0.8;
 
     /// The scheme with the given `rho`, ρ∞, the fraction of an unresolved vibration that remains per step.
     ///
     /// # Errors
-    /// [`RhoError`] where it is not from 0 to [`Self::MOST_RHO`].
+    /// [`RhoError`] where it is not from 0 to [`Self::MAX_RHO`].
     pub const fn new(rho: f64) -> Result<Self, RhoError> {
-        if !(rho >= 0.0 && rho <= Self::MOST_RHO) {
+        if !(rho >= 0.0 && rho <= Self::MAX_RHO) {
             return Err(RhoError(rho));
         }
         let alpha_m = (2.0 * rho - 1.0) / (rho + 1.0);
@@ -176,12 +176,12 @@ impl Scheme for GeneralizedAlpha {
     const DAMPING: Damping = Damping::Implicit;
     const REMEMBERS: bool = true;
     // One Newton step is not accurate for larger rotations.
-    const MOST_TURN: Constant = Constant::new(0.5);
+    const MAX_TURN: Constant = Constant::new(0.5);
     // Rounding errors in the matrix grow with its condition, the square of this: in single precision free motion is
     // accurate to 1e-5 m up to this limit, and is slowed down beyond. The bound exceeds ω by up to √2.
-    const MOST_VIBRATION: Option<Constant> = Some(Constant { double: 1e7, single: 700.0 });
+    const MAX_VIBRATION: Option<Constant> = Some(Constant { double: 1e7, single: 700.0 });
     type Memory<P: Geometry> = GeneralizedAlphaMemory<P>;
-    type Keeps = Matrix;
+    type Storage = Matrix;
 
     fn evaluations(&self) -> u32 {
         1
@@ -196,10 +196,10 @@ impl Scheme for GeneralizedAlpha {
     }
 
     #[inline(always)]
-    fn pencil<R: Real>(&self, h: R) -> Pencil<R> {
+    fn matrix_weights<R: Real>(&self, h: R) -> MatrixWeights<R> {
         let Self { mass, gamma, beta, .. } = *self;
         let [mass, gamma, beta] = [mass, gamma, beta].map(R::constant);
-        Pencil { mass, damping: h * gamma, stiffness: h * h * beta }
+        MatrixWeights { mass, damping: h * gamma, stiffness: h * h * beta }
     }
 
     fn visit_memory<P: Geometry>(memory: &Self::Memory<P>, visitor: &mut impl WordVisitor) {
@@ -222,10 +222,10 @@ impl Scheme for GeneralizedAlpha {
         stepper: &mut Stepper<'_, '_, P, T, Self::Memory<P>>,
     ) -> Result<(), Cause> {
         // The stored accelerations are invalid where the ground jumps.
-        let begins = !stepper.ledger.begun || stepper.ground_jumps();
+        let begins = !stepper.cache.begun || stepper.ground_jumps();
         let (h, end) = (stepper.h, P::Real::ONE);
         self.advance(stepper, Part { h, end, half: false, begins, at: At::Boundary })?;
-        stepper.ledger.begun = true;
+        stepper.cache.begun = true;
         Ok(())
     }
 }
@@ -280,13 +280,13 @@ impl GeneralizedAlpha {
         }
         stepper.sample_inputs(part.end);
         stepper.evaluate_once::<ExplicitDampers>(part.at, false)?;
-        let pencil = self.pencil(h);
-        self.right_sides(stepper, pencil, predicted);
-        stepper.solve(pencil, part.half)?;
+        let matrix_weights = self.matrix_weights(h);
+        self.right_sides(stepper, matrix_weights, predicted);
+        stepper.solve(matrix_weights, part.half)?;
         if begins {
             self.end_first(stepper, h);
         } else {
-            self.end(stepper, pencil, predicted);
+            self.end(stepper, matrix_weights, predicted);
         }
         if stepper.is_pushed() {
             stepper.push();
@@ -300,14 +300,14 @@ impl GeneralizedAlpha {
     fn end<P: Geometry, T: Terms<P>, S: Remembers<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, S>,
-        Pencil { mass, damping: change, stiffness: reach }: Pencil<P::Real>,
+        MatrixWeights { mass, damping: change, stiffness: elongation }: MatrixWeights<P::Real>,
         predicted: bool,
     ) {
         stepper.correct(|state, memory, mut next| {
             let memory = memory.accelerations();
             let known = self.known::<P>(memory);
-            P::translate(&mut state.position, next.linear * reach);
-            let half = next.angular * (P::Real::HALF * reach);
+            P::translate(&mut state.position, next.linear * elongation);
+            let half = next.angular * (P::Real::HALF * elongation);
             rotation::turn_by::<P>(&mut state.orientation, half);
             P::accelerate(&mut state.velocity, next.linear * change);
             P::spin_up(&mut state.angular_velocity, next.angular * change);
@@ -331,11 +331,11 @@ impl GeneralizedAlpha {
     ) {
         let constant = P::Real::constant;
         let (mass, half) = (constant(self.mass), P::Real::HALF);
-        let (rest, reach) = (h * constant(self.rest_of_first), half * h * h);
+        let (rest, elongation) = (h * constant(self.rest_of_first), half * h * h);
         stepper.correct(|state, memory, next| {
             let a = Increment { linear: next.linear * mass, angular: next.angular * mass };
-            let way = P::velocity(&state.velocity) * rest + a.linear * reach;
-            let turn = P::spin(&state.angular_velocity) * rest + a.angular * reach;
+            let way = P::velocity(&state.velocity) * rest + a.linear * elongation;
+            let turn = P::spin(&state.angular_velocity) * rest + a.angular * elongation;
             P::translate(&mut state.position, way);
             rotation::turn_by::<P>(&mut state.orientation, turn * half);
             P::accelerate(&mut state.velocity, a.linear * h);
@@ -360,7 +360,7 @@ impl GeneralizedAlpha {
     fn right_sides<P: Geometry, T: Terms<P>, S: Remembers<P>>(
         &self,
         stepper: &mut Stepper<'_, '_, P, T, S>,
-        Pencil { mass, damping: change, .. }: Pencil<P::Real>,
+        MatrixWeights { mass, damping: change, .. }: MatrixWeights<P::Real>,
         predicted: bool,
     ) {
         let Stepper { workspace, memory } = stepper;

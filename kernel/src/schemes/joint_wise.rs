@@ -9,7 +9,7 @@
 use crate::damping::Damping;
 use crate::forces::DampersOfJoints;
 use crate::geometry::Geometry;
-use crate::keep::Levers;
+use crate::keep::DampingModes;
 use crate::model::Terms;
 use crate::schemes::{Kicked, Scheme};
 use crate::status::Cause;
@@ -27,7 +27,7 @@ impl<S: Kicked> Scheme for JointWise<S> {
     const DAMPING: Damping = Damping::JointWise;
     const ADVANCES: bool = S::ADVANCES;
     type Memory<P: Geometry> = S::Memory<P>;
-    type Keeps = Levers;
+    type Storage = DampingModes;
 
     fn evaluations(&self) -> u32 {
         self.0.evaluations()

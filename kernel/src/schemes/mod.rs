@@ -29,12 +29,12 @@ pub use semi_implicit_euler::SemiImplicitEuler;
 
 use crate::damping::Damping;
 use crate::geometry::Geometry;
-use crate::keep::Keep;
+use crate::keep::Storage;
 use crate::laws::Need;
 use crate::model::Terms;
 use crate::real::{Constant, Real};
-use crate::solve::Pencil;
-use crate::status::{Cause, MOST_TURN};
+use crate::solve::MatrixWeights;
+use crate::status::{Cause, MAX_TURN};
 use crate::step::Stepper;
 use crate::words::{WordSource, WordVisitor};
 
@@ -55,15 +55,15 @@ pub trait Scheme: Copy {
     /// Whether its steps advance memories of laws: it evaluates once per step, at its end.
     const ADVANCES: bool = false;
     /// \[rad\] the largest rotation of a body in a step.
-    const MOST_TURN: Constant = Constant::new(MOST_TURN);
+    const MAX_TURN: Constant = Constant::new(MAX_TURN);
     /// \[rad\] the largest `ω·h` of a model's natural frequencies that its matrix allows in double and in single
     /// precision.
-    const MOST_VIBRATION: Option<Constant> = None;
+    const MAX_VIBRATION: Option<Constant> = None;
     /// Memory per body that the scheme needs within a step, or from one to the next.
     type Memory<P: Geometry>: Copy + Default + Send;
-    /// Its storage in a plant: [`Nothing`](crate::keep::Nothing), [`Levers`](crate::keep::Levers) for damping joint by
+    /// Its storage in a plant: [`NoStorage`](crate::keep::Nothing), [`DampingModes`](crate::keep::Levers) for damping joint by
     /// joint, or a [`Matrix`](crate::keep::Matrix).
-    type Keeps: Keep;
+    type Storage: Storage;
 
     /// Force evaluations per step, when nothing changes between steps.
     fn evaluations(&self) -> u32;
@@ -85,8 +85,8 @@ pub trait Scheme: Copy {
     fn visit_parameters(&self, _visitor: &mut impl WordVisitor) {}
 
     /// The weights of mass, damping and stiffness in its matrix, for a scheme that has one.
-    fn pencil<R: Real>(&self, _h: R) -> Pencil<R> {
-        Pencil::default()
+    fn matrix_weights<R: Real>(&self, _h: R) -> MatrixWeights<R> {
+        MatrixWeights::default()
     }
 
     /// Passes the memory of a body to the visitor, word by word.

@@ -10,7 +10,7 @@
 use crate::compositions::PEFRL;
 use crate::damping::Damping;
 use crate::geometry::Geometry;
-use crate::keep::Nothing;
+use crate::keep::NoStorage;
 use crate::model::Terms;
 use crate::schemes::Scheme;
 use crate::schemes::compose::compose;
@@ -29,7 +29,7 @@ impl Scheme for Pefrl {
     const DAMPING: Damping = Damping::Sweeps;
     const SETTLES: bool = false;
     type Memory<P: Geometry> = ();
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         PEFRL.kicks.len() as u32

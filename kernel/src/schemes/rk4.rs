@@ -10,7 +10,7 @@ use crate::body::{BodyState, Increment};
 use crate::damping::Damping;
 use crate::forces::{At, ExplicitDampers};
 use crate::geometry::Geometry;
-use crate::keep::Nothing;
+use crate::keep::NoStorage;
 use crate::model::Terms;
 use crate::real::Real as _;
 use crate::rotation;
@@ -44,7 +44,7 @@ impl Scheme for Rk4 {
     const ORDER_DAMPED: u32 = 4;
     const DAMPING: Damping = Damping::Explicit;
     type Memory<P: Geometry> = Rk4Memory<P>;
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         4

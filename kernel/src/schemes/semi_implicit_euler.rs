@@ -10,7 +10,7 @@
 use crate::damping::Damping;
 use crate::forces::{At, Dampers, DampersLeft};
 use crate::geometry::Geometry;
-use crate::keep::Nothing;
+use crate::keep::NoStorage;
 use crate::model::Terms;
 use crate::real::Real;
 use crate::schemes::{Kicked, Scheme};
@@ -28,7 +28,7 @@ impl Scheme for SemiImplicitEuler {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Sweeps;
     type Memory<P: Geometry> = ();
-    type Keeps = Nothing;
+    type Storage = NoStorage;
 
     fn evaluations(&self) -> u32 {
         1

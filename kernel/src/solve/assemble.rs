@@ -7,7 +7,7 @@
 use crate::body::BodyState;
 use crate::damping::{Direction, Far, FarHeld};
 use crate::elements::element::Element;
-use crate::elements::point_law::Stretch;
+use crate::elements::point_law::Deformation;
 use crate::forces::springs;
 use crate::freedoms::Freedoms;
 use crate::geometry::Geometry;
@@ -16,8 +16,8 @@ use crate::laws::{Instant, Laws as _, Row as Law, Seen};
 use crate::model::{Group, ModelRef, Plan, StatesIn, Terms};
 use crate::pose::{End, Places, gradient_of, held_turns, placed};
 use crate::real::Real;
-use crate::solve::pencil::{Pencil, damping_of};
-use crate::solve::seat::Seat;
+use crate::solve::lumped_joint::LumpedJoint;
+use crate::solve::matrix_weights::{MatrixWeights, damping_of};
 use crate::solve::system::System;
 use crate::space::{BlockOf, Linear as _, Space, Vector as _};
 
@@ -26,7 +26,7 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     bodies: &[BodyState<P>],
-    (pencil, seats): (Pencil<P::Real>, &[Seat<P::Space>]),
+    (matrix_weights, lumped_joints): (MatrixWeights<P::Real>, &[LumpedJoint<P::Space>]),
     memories: &StatesIn<P, T>,
     system: &mut System<'_, P::Space>,
 ) {
@@ -35,14 +35,16 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
     }
     let rows = system.diagonal.iter_mut().zip(model.bodies).zip(places.frames);
     for ((block, body), frame) in rows {
-        let (mass, inertia) = (pencil.mass * body.mass, body.inertia * pencil.mass);
+        let (mass, inertia) = (matrix_weights.mass * body.mass, body.inertia * matrix_weights.mass);
         P::Space::set_mass(mass, inertia, P::moment_axes(frame), block);
     }
     for (number, group) in model.groups.iter().enumerate() {
         let mut mount = Mount::new(system, [group.a, group.b], number);
-        match seats.get(number) {
-            Some(seat) if P::Real::ZERO < seat.point => mount.hold(model, places, group, seat),
-            _ => add_group(model, places, (number, group), pencil, &mut mount),
+        match lumped_joints.get(number) {
+            Some(lumped_joint) if P::Real::ZERO < lumped_joint.point => {
+                mount.hold(model, places, group, lumped_joint)
+            }
+            _ => add_group(model, places, (number, group), matrix_weights, &mut mount),
         }
     }
     if T::TORSIONS {
@@ -50,7 +52,7 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
             let Some(gradient) = gradient_of::<P>(spring, bodies) else { continue };
             let gradient = End::new(model, places, spring.a, None).moment_to_world(gradient);
             let damping = spring.damper.row().and_then(|row| model.dampers.get(row).copied());
-            let weight = pencil.weight(spring.stiffness, damping.unwrap_or(P::Real::ZERO));
+            let weight = matrix_weights.weight(spring.stiffness, damping.unwrap_or(P::Real::ZERO));
             let mut mount = Mount::new(system, [spring.a, spring.b], model.groups.len() + row);
             mount.add(weight, P::Vector::ZERO, [gradient; 2]);
         }
@@ -61,7 +63,7 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
         let ends = law.bodies();
         let Some(seen) = at.seen(ends) else { return };
         if law.most_branches() > 0 {
-            return along(law, &seen, (pencil, places.frames), system);
+            return along(law, &seen, (matrix_weights, places.frames), system);
         }
         let mut mount = Mount::new(system, ends, before + row);
         // Velocities and rotations of the matrix are in world axes.
@@ -71,10 +73,10 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
             mount.add(weight, direction.along, moments);
         };
         law.tangent(&seen, &mut |stiffness, direction| {
-            add(pencil.weight(stiffness, P::Real::ZERO), direction);
+            add(matrix_weights.weight(stiffness, P::Real::ZERO), direction);
         });
         law.each_damper(&seen, &mut |_, damper| {
-            add(pencil.weight(P::Real::ZERO, damper.coefficient), &damper.direction);
+            add(matrix_weights.weight(P::Real::ZERO, damper.coefficient), &damper.direction);
         });
     });
 }
@@ -83,7 +85,7 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
 fn along<P: Geometry>(
     law: &dyn Law<P>,
     seen: &Seen<'_, P>,
-    (pencil, frames): (Pencil<P::Real>, &[P::Frame]),
+    (matrix_weights, frames): (MatrixWeights<P::Real>, &[P::Frame]),
     system: &mut System<'_, P::Space>,
 ) {
     let (mut own, mut damping) = (None, P::Real::ZERO);
@@ -95,7 +97,7 @@ fn along<P: Geometry>(
     let mut far = Far::<P>::default();
     far.add(law.bodies(), &direction);
     law.each_branch(seen, &mut |_, branch| far.add(branch.bodies, &branch.direction));
-    let weight = pencil.weight(stiffness, damping);
+    let weight = matrix_weights.weight(stiffness, damping);
     let row = |held: &FarHeld<P>| {
         let moment = frames.get(held.row).map(|frame| P::moment_to_world(frame, held.moment));
         P::Space::row(held.along, moment.unwrap_or(held.moment))
@@ -126,20 +128,20 @@ fn add_group<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     (number, group): (usize, &Group),
-    pencil: Pencil<P::Real>,
+    matrix_weights: MatrixWeights<P::Real>,
     mount: &mut Mount<'_, P::Space>,
 ) {
     for i in 0..group.elements() {
         let Some(element) = placed(model, places, (number, group), i) else { continue };
         let Some(law) = model.element(group.law, element.index) else { continue };
-        let weight = pencil.weight(law.stiffness(), damping_of(model, group, i));
+        let weight = matrix_weights.weight(law.stiffness(), damping_of(model, group, i));
         let arms = [element.arm_a, element.arm_b];
         match law {
             Element::PointBushing(_) => mount.hold_point(weight, arms),
             Element::Universal(_) => mount.hold_point(weight, arms),
             Element::Revolute(revolute) => {
                 mount.hold_point(weight, arms);
-                let Stretch { direction, ratio, .. } = element.stretch;
+                let Deformation { direction, ratio, .. } = element.deformation;
                 let more = weight * (ratio - P::Real::ONE);
                 mount.add(more, direction, arms.map(|arm| arm.cross(direction)));
                 let lever = revolute.levers[0];
@@ -148,10 +150,12 @@ fn add_group<P: Geometry, T: Terms<P>>(
             }
             Element::Tsda(_) | Element::PointOnLine(_) => {
                 let known = (damping_of(model, group, i), model.clearance(group));
-                let Some(springs) = springs(model, &law, &element.stretch, known) else { continue };
+                let Some(springs) = springs(model, &law, &element.deformation, known) else {
+                    continue;
+                };
                 let parts = springs.directions.into_iter().zip(springs.constants);
                 for (u, [k, c]) in parts.take(springs.count) {
-                    mount.add(pencil.weight(k, c), u, arms.map(|arm| arm.cross(u)));
+                    mount.add(matrix_weights.weight(k, c), u, arms.map(|arm| arm.cross(u)));
                 }
             }
         }
@@ -172,10 +176,10 @@ struct Mount<'s, S: Space> {
 
 impl<'s, S: Space> Mount<'s, S> {
     fn new(system: &'s mut System<'_, S>, ends: [BodyIndex; 2], number: usize) -> Self {
-        let Plan { pairs, homes, .. } = system.plan;
-        let home = homes.get(number).map_or(usize::MAX, |home| usize::from(*home));
-        let pair = pairs.get(home).map(|[first, _]| *first == ends[0].0);
-        let pair = pair.and_then(|ordered| Some((system.pairs.get_mut(home)?, ordered)));
+        let Plan { pairs, slots, .. } = system.plan;
+        let slot = slots.get(number).map_or(usize::MAX, |slot| usize::from(*slot));
+        let pair = pairs.get(slot).map(|[first, _]| *first == ends[0].0);
+        let pair = pair.and_then(|ordered| Some((system.pairs.get_mut(slot)?, ordered)));
         Self { diagonal: system.diagonal, ends, pair }
     }
 
@@ -228,13 +232,13 @@ impl<'s, S: Space> Mount<'s, S> {
         model: &ModelRef<'_, P, T>,
         places: Places<'_, P>,
         group: &Group,
-        seat: &Seat<S>,
+        lumped_joint: &LumpedJoint<S>,
     ) {
         let [a, b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
-        let arms = [a.to_world(seat.arms[0]), b.to_world(seat.arms[1])];
-        self.hold_point(seat.point, arms);
-        if S::Real::ZERO < seat.across {
-            self.hold_axis(seat.across, a.to_world(seat.axis));
+        let arms = [a.to_world(lumped_joint.arms[0]), b.to_world(lumped_joint.arms[1])];
+        self.hold_point(lumped_joint.point, arms);
+        if S::Real::ZERO < lumped_joint.across {
+            self.hold_axis(lumped_joint.across, a.to_world(lumped_joint.axis));
         }
     }
 }

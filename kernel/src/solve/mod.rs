@@ -6,12 +6,12 @@
 //! every step, stiffness and damping.
 
 mod assemble;
-mod pencil;
-mod seat;
+mod lumped_joint;
+mod matrix_weights;
 mod system;
 
 pub(crate) use assemble::assemble;
-pub use pencil::Pencil;
-pub use seat::Seat;
-pub(crate) use seat::find;
+pub use lumped_joint::LumpedJoint;
+pub(crate) use lumped_joint::find;
+pub use matrix_weights::MatrixWeights;
 pub(crate) use system::System;

@@ -129,7 +129,7 @@ mod tests {
             order: &[[0, 2], [1, 2], [2, 1], [3, 0]],
             pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
             targets: &[3, 4],
-            homes: &[Plan::GROUND, 0, 2, 4, 1],
+            slots: &[Plan::GROUND, 0, 2, 4, 1],
         };
         let mut random = 0.37_f64;
         let mut next = || {
@@ -140,7 +140,7 @@ mod tests {
         let mut pairs = [<[f64; 6]>::EMPTY; 5];
         let mut whole = vec![[0.0; 24]; 24];
         let springs = [[usize::MAX, 0], [0, 1], [1, 2], [2, 3], [0, 3]];
-        for (ends, home) in springs.into_iter().zip(plan.homes) {
+        for (ends, slot) in springs.into_iter().zip(plan.slots) {
             for _ in 0..8 {
                 let rows: [[f64; 6]; 2] = [(); 2].map(|()| core::array::from_fn(|_| next()));
                 let mut of_all = [0.0; 24];
@@ -150,7 +150,7 @@ mod tests {
                         of_all[6 * end..6 * end + 6].copy_from_slice(&row);
                     }
                 }
-                if let Some(block) = pairs.get_mut(usize::from(*home)) {
+                if let Some(block) = pairs.get_mut(usize::from(*slot)) {
                     rows[1].add_product(3.0, &rows[0], block);
                 }
                 for (whole, a) in whole.iter_mut().zip(of_all) {

@@ -15,11 +15,11 @@ pub(crate) fn kick_body<P: Geometry>(
     state: &mut BodyState<P>,
     wrench: &Wrench<P::Space>,
     diagonal: &Diagonal<P::Space>,
-    (scale, fall): (P::Real, Option<P::Vector>),
+    (scale, apply_gravity): (P::Real, Option<P::Vector>),
 ) {
     let increment = diagonal.increment(wrench.force, wrench.torque, scale);
-    if let Some(fall) = fall {
-        P::fall(&mut state.velocity, fall);
+    if let Some(apply_gravity) = apply_gravity {
+        P::apply_gravity(&mut state.velocity, apply_gravity);
     }
     P::accelerate(&mut state.velocity, increment.linear);
     P::spin_up(&mut state.angular_velocity, increment.angular);
@@ -32,7 +32,7 @@ pub(crate) fn drift_body<P: Geometry>(
     body: &Body<P::Space>,
     time: P::Real,
 ) {
-    P::fly(&mut state.position, &state.velocity, time);
+    P::advance_position(&mut state.position, &state.velocity, time);
     rotation::free_rotor::<P>(body, &mut state.orientation, &mut state.angular_velocity, time);
 }
 
@@ -46,7 +46,7 @@ pub(crate) fn drift_to_frame<P: Geometry>(
 ) {
     if P::RESTS {
         let BodyState { position, orientation, velocity, angular_velocity } = state;
-        P::fly(position, velocity, time);
+        P::advance_position(position, velocity, time);
         rotation::turn_freely::<P>(body, orientation, angular_velocity, time);
         P::set_next_frame(frame, position, orientation);
     } else {
@@ -62,10 +62,10 @@ pub(super) fn move_apart<P: Geometry, T: Terms<P>>(
     body: &Body<P::Space>,
     frame: &mut P::Frame,
     (wrench, diagonal): (&Wrench<P::Space>, &Diagonal<P::Space>),
-    fall: P::Vector,
+    apply_gravity: P::Vector,
     time: P::Real,
 ) {
-    let fall = if P::FALLS && T::GRAVITY { Some(fall) } else { None };
-    kick_body(state, wrench, diagonal, (P::Real::HALF, fall));
+    let apply_gravity = if P::HAS_GRAVITY_STEP && T::GRAVITY { Some(apply_gravity) } else { None };
+    kick_body(state, wrench, diagonal, (P::Real::HALF, apply_gravity));
     drift_to_frame(state, body, frame, time);
 }

@@ -39,7 +39,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         if !(P::PassSum::APART && self.has_dampers()) {
             self.kick(P::Real::HALF);
         }
-        let fall = self.fall(P::Real::HALF);
+        let apply_gravity = self.apply_gravity(P::Real::HALF);
         let (wrenches, diagonals) = (&*self.wrenches, self.diagonals);
         if self.has_dampers() {
             let sweep = Sweep {
@@ -47,7 +47,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
                 places: Places { frames: self.frames, signals: self.signals },
                 turns: self.turns,
                 shares: self.shares,
-                kick: HalfKick { wrenches, diagonals, fall },
+                kick: HalfKick { wrenches, diagonals, apply_gravity },
             };
             damping::sweep::<P, T, _, REVERSE>(
                 &self.model,
@@ -66,22 +66,22 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         if !(D::JOINT_WISE && self.has_dampers()) {
             return self.kick_and_sweep::<REVERSE>();
         }
-        let fresh = !self.ledger.ready;
+        let fresh = !self.cache.ready;
         self.keep_kick(fresh);
         let h = P::Real::HALF * self.h;
         let places = Places { frames: &*self.frames, signals: &*self.signals };
         let kick = KeptKick { kicks: &*self.wrenches };
         let sweep = Sweep { h, places, turns: &*self.turns, shares: self.shares, kick };
         if fresh {
-            let levers = (&mut *self.levers, self.ledger.stops);
-            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, levers, REVERSE);
-            self.ledger.ready = true;
+            let modes = (&mut *self.modes, self.cache.stops);
+            damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, modes, REVERSE);
+            self.cache.ready = true;
         }
-        let levers = (&mut *self.levers, self.ledger.stops);
+        let modes = (&mut *self.modes, self.cache.stops);
         damping::sweep_joints::<P, T, _, REVERSE>(
             &self.model,
             &sweep,
-            levers,
+            modes,
             (&mut *self.law_states, self.law_shares),
             self.bodies,
             self.sums,
@@ -92,13 +92,13 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// and replaces them.
     #[inline(always)]
     fn keep_kick(&mut self, fresh: bool) {
-        let fall = self.fall(P::Real::HALF);
+        let apply_gravity = self.apply_gravity(P::Real::HALF);
         let rows = self.bodies.iter_mut().zip(self.wrenches.iter_mut());
         if fresh {
             for ((state, wrench), diagonal) in rows.zip(self.diagonals) {
                 let mut kick = diagonal.increment(wrench.force, wrench.torque, P::Real::HALF);
-                if let Some(fall) = fall {
-                    kick.linear = kick.linear + fall;
+                if let Some(apply_gravity) = apply_gravity {
+                    kick.linear = kick.linear + apply_gravity;
                 }
                 *wrench = Wrench::new(kick.linear, kick.angular);
                 if !P::PassSum::APART {

@@ -15,7 +15,7 @@ use core::ops::{Deref, DerefMut};
 
 pub use crate::body::Diagonal;
 use crate::body::{BodyState, Increment};
-use crate::damping::{Lever, Share};
+use crate::damping::{DampingMode, Share};
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Memories, Unpushed, Wrench};
 use crate::geometry::Geometry;
 use crate::laws::Laws;
@@ -25,7 +25,7 @@ use crate::pose::Places;
 use crate::real::Real;
 use crate::rotation;
 use crate::schedule::{self, KnotStep, LoadWindow, Signal, StageTime};
-use crate::solve::Seat;
+use crate::solve::LumpedJoint;
 use crate::sources::{self, SourceStep};
 use crate::space::{BlockOf, Linear as _, Moment as _, Space as _};
 use crate::status::Cause;
@@ -33,7 +33,7 @@ use crate::status::Cause;
 /// The evaluation cache of a plant. Never part of the state: evaluating again gives the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
-pub(crate) struct Ledger {
+pub(crate) struct Cache {
     /// Force evaluations performed since t = 0.
     pub(crate) evaluations: u64,
     /// Whether frames and wrenches are those of the present pose except for inputs, without dampers and with updated
@@ -92,12 +92,12 @@ pub struct Workspace<'s, 'm, P: Geometry, T: Terms<P>> {
     /// The dampers' weights.
     pub(crate) shares: &'s [Share<P::Real>],
     /// The joints' damping modes, empty where dampers act otherwise.
-    pub(crate) levers: &'s mut [Lever<P>],
+    pub(crate) modes: &'s mut [DampingMode<P>],
     /// The elimination order of the matrix, its lumped joints and its blocks; empty where the scheme has no matrix.
     pub(crate) plan: Plan<'m>,
-    pub(crate) seats: &'s [Seat<P::Space>],
+    pub(crate) lumped_joints: &'s [LumpedJoint<P::Space>],
     /// The same for half a step, empty where the scheme has none.
-    pub(crate) half_seats: &'s [Seat<P::Space>],
+    pub(crate) half_lumped_joints: &'s [LumpedJoint<P::Space>],
     pub(crate) blocks: &'s mut [BlockOf<P::Space>],
     pub(crate) pair_blocks: &'s mut [BlockOf<P::Space>],
     /// The loads' windows.
@@ -129,7 +129,7 @@ pub struct Workspace<'s, 'm, P: Geometry, T: Terms<P>> {
     /// Whether the groups are uniform, see [`forces::are_in_line`].
     pub(crate) in_line: bool,
     /// The number of evaluations and the validity of the wrenches.
-    pub(crate) ledger: &'s mut Ledger,
+    pub(crate) cache: &'s mut Cache,
 }
 
 impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
@@ -167,7 +167,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
                 changed |= sources::sample(sources, knots, steps, knot_steps, at, self.signals);
             }
             if changed {
-                self.ledger.fresh = false;
+                self.cache.fresh = false;
             }
         }
     }
@@ -178,7 +178,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// its reverse. A step has at least one evaluation [`At::Boundary`].
     ///
     /// # Errors
-    /// [`Cause::UndefinedTwist`] names the torsion spring whose torsion angle is undefined, [`Cause::Undefined`] the
+    /// [`Cause::UndefinedTorsionAngle`] names the torsion spring whose torsion angle is undefined, [`Cause::Undefined`] the
     /// law.
     #[inline(always)]
     pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
@@ -211,12 +211,12 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     // Inlined for lanes: they are stepped by a function with more target features than its callees.
     #[inline(always)]
     fn evaluate_here<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
-        self.ledger.evaluations += 1;
-        self.ledger.fresh = false;
-        self.ledger.ready = false;
-        let moved = <LawsIn<P, T> as Laws<P>>::ADVANCES && at == At::Boundary && self.ledger.moved;
+        self.cache.evaluations += 1;
+        self.cache.fresh = false;
+        self.cache.ready = false;
+        let moved = <LawsIn<P, T> as Laws<P>>::ADVANCES && at == At::Boundary && self.cache.moved;
         let advance = if moved { Some(self.h) } else { None };
-        self.ledger.moved &= !moved;
+        self.cache.moved &= !moved;
         forces::evaluate::<P, T, D>(
             &self.model,
             Instant {
@@ -231,8 +231,8 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
             Memories { turns: self.turns, laws: self.law_states, at, advance },
             Evaluation { frames: self.frames, wrenches: self.wrenches, unpushed: self.unpushed },
         )?;
-        self.ledger.fresh = !D::ACT && at == At::Boundary;
-        self.ledger.pushed = true;
+        self.cache.fresh = !D::ACT && at == At::Boundary;
+        self.cache.pushed = true;
         Ok(())
     }
 
@@ -242,7 +242,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     #[inline]
     #[must_use]
     pub fn is_fresh(&self) -> bool {
-        self.is_placed() && self.ledger.pushed
+        self.is_placed() && self.cache.pushed
     }
 
     /// Updates the forces of inputs in the wrenches to the present signals where [`Self::is_fresh`] lacks only that: a
@@ -252,15 +252,15 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         if !self.is_placed() {
             return false;
         }
-        if T::INPUTS && !self.ledger.pushed {
+        if T::INPUTS && !self.cache.pushed {
             // Joint by joint the kick is stored in place of the wrenches.
-            if self.ledger.ready {
+            if self.cache.ready {
                 return false;
             }
             let places = Places { frames: &*self.frames, signals: &*self.signals };
             forces::take_back(&self.model, self.unpushed, self.wrenches);
             forces::push(&self.model, places, self.wrenches);
-            self.ledger.pushed = true;
+            self.cache.pushed = true;
         }
         true
     }
@@ -269,7 +269,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     #[inline(always)]
     fn is_placed(&self) -> bool {
         let step = self.step;
-        self.ledger.fresh && !(T::LOADS && self.windows.iter().any(|w| w.changes_at(step)))
+        self.cache.fresh && !(T::LOADS && self.windows.iter().any(|w| w.changes_at(step)))
     }
 
     /// Adds `scale·(h·D⁻¹)·Q` to the velocities, without the gyroscopic term.
@@ -295,10 +295,10 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
 
     #[inline(always)]
     fn kick_here(&mut self, scale: P::Real) {
-        let fall = self.fall(scale);
+        let apply_gravity = self.apply_gravity(scale);
         let rows = self.bodies.iter_mut().zip(self.wrenches.iter()).zip(self.diagonals);
         for ((state, wrench), diagonal) in rows {
-            kick_body(state, wrench, diagonal, (scale, fall));
+            kick_body(state, wrench, diagonal, (scale, apply_gravity));
         }
     }
 
@@ -306,20 +306,20 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     #[inline(always)]
     pub(crate) fn field(&self) -> Option<P::Vector> {
         let field = || self.model.gravity.first().copied().unwrap_or(P::Vector::ZERO);
-        if P::FALLS && T::GRAVITY { Some(field()) } else { None }
+        if P::HAS_GRAVITY_STEP && T::GRAVITY { Some(field()) } else { None }
     }
 
     /// \[m/s\] the increment by gravity in `scale` steps, likewise.
     #[inline(always)]
-    pub(crate) fn fall(&self, scale: P::Real) -> Option<P::Vector> {
+    pub(crate) fn apply_gravity(&self, scale: P::Real) -> Option<P::Vector> {
         self.field().map(|gravity| gravity * (scale * self.h))
     }
 
     /// Moves every body freely for `time` \[s\]: in translation, and as a free rotor (second order).
     #[inline(always)]
     pub fn drift(&mut self, time: P::Real) {
-        self.ledger.fresh = false;
-        self.ledger.ready = false;
+        self.cache.fresh = false;
+        self.cache.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             drift_body(state, body, time);
         }
@@ -328,13 +328,13 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// [`Self::kick`] and then [`Self::drift`], body by body: its velocities stay in registers.
     #[inline(always)]
     pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
-        self.ledger.fresh = false;
-        self.ledger.ready = false;
-        let fall = self.fall(scale);
+        self.cache.fresh = false;
+        self.cache.ready = false;
+        let apply_gravity = self.apply_gravity(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies);
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
         for ((state, body), (wrench, diagonal)) in rows {
-            kick_body(state, wrench, diagonal, (scale, fall));
+            kick_body(state, wrench, diagonal, (scale, apply_gravity));
             drift_body(state, body, time);
         }
     }
@@ -342,9 +342,9 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// [`Self::drift`], including the bodies' frames.
     #[inline(always)]
     pub(crate) fn drift_and_place(&mut self, time: P::Real) {
-        self.ledger.fresh = false;
-        self.ledger.ready = false;
-        self.ledger.moved = true;
+        self.cache.fresh = false;
+        self.cache.ready = false;
+        self.cache.moved = true;
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         for ((state, body), frame) in rows {
             drift_to_frame(state, body, frame, time);
@@ -359,18 +359,18 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
             self.kick(scale);
             return self.drift_and_place(time);
         }
-        self.ledger.fresh = false;
-        self.ledger.ready = false;
-        self.ledger.moved = true;
-        let fall = self.fall(scale);
+        self.cache.fresh = false;
+        self.cache.ready = false;
+        self.cache.moved = true;
+        let apply_gravity = self.apply_gravity(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
         for (((state, body), frame), (wrench, diagonal)) in rows {
             if P::RESTS && scale == P::Real::HALF {
-                let fall = fall.unwrap_or(P::Vector::ZERO);
-                move_apart::<P, T>(state, body, frame, (wrench, diagonal), fall, time);
+                let apply_gravity = apply_gravity.unwrap_or(P::Vector::ZERO);
+                move_apart::<P, T>(state, body, frame, (wrench, diagonal), apply_gravity, time);
             } else {
-                kick_body(state, wrench, diagonal, (scale, fall));
+                kick_body(state, wrench, diagonal, (scale, apply_gravity));
                 drift_to_frame(state, body, frame, time);
             }
         }
@@ -379,10 +379,10 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// [`Self::drift`] with a free rotor of fourth order; `time` may be negative.
     #[inline(always)]
     pub fn drift_of_order_four(&mut self, time: P::Real) {
-        self.ledger.fresh = false;
-        self.ledger.ready = false;
+        self.cache.fresh = false;
+        self.cache.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
-            P::fly(&mut state.position, &state.velocity, time);
+            P::advance_position(&mut state.position, &state.velocity, time);
             let (q, w) = (&mut state.orientation, &mut state.angular_velocity);
             if P::Real::LANES == 1 {
                 rotation::free_rotor_of_order_four::<P>(body, q, w, time);
@@ -419,9 +419,9 @@ impl<P: Geometry, T: Terms<P>, S> Stepper<'_, '_, P, T, S> {
         &mut self,
         mut visit: impl FnMut(&mut S, &mut BodyState<P>, Increment<P::Space>, P::Real),
     ) {
-        let fall = self.workspace.fall(P::Real::ONE);
-        let Workspace { bodies, model, wrenches, diagonals, ledger, h, .. } = &mut self.workspace;
-        ledger.fresh = false;
+        let apply_gravity = self.workspace.apply_gravity(P::Real::ONE);
+        let Workspace { bodies, model, wrenches, diagonals, cache, h, .. } = &mut self.workspace;
+        cache.fresh = false;
         let rows = bodies
             .iter_mut()
             .zip(self.memory.iter_mut())
@@ -431,8 +431,8 @@ impl<P: Geometry, T: Terms<P>, S> Stepper<'_, '_, P, T, S> {
             let w = P::spin(&state.angular_velocity);
             let torque = wrench.torque - w.commutator(body.inertia.scale(w));
             let mut increment = diagonal.increment(wrench.force, torque, P::Real::ONE);
-            if let Some(fall) = fall {
-                increment.linear = increment.linear + fall;
+            if let Some(apply_gravity) = apply_gravity {
+                increment.linear = increment.linear + apply_gravity;
             }
             visit(memory, state, increment, *h);
         }

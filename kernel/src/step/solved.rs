@@ -7,7 +7,7 @@ use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::pose::{Places, place_bodies};
 use crate::schedule::ground_jumps;
-use crate::solve::{Pencil, System, assemble};
+use crate::solve::{MatrixWeights, System, assemble};
 use crate::status::Cause;
 use crate::step::Workspace;
 
@@ -34,7 +34,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// The forces of loads and inputs, in place of the wrenches; the frames are those of the pose.
     #[inline(always)]
     pub(crate) fn push(&mut self) {
-        self.ledger.fresh = false;
+        self.cache.fresh = false;
         let places = Places { frames: &*self.frames, signals: &*self.signals };
         pushed::<P, T>(&self.model, self.windows, self.step, places, self.wrenches);
     }
@@ -45,11 +45,16 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// # Errors
     /// [`Cause::Pivot`] names the body at which the matrix is not positive definite.
     #[inline(always)]
-    pub(crate) fn solve(&mut self, pencil: Pencil<P::Real>, half: bool) -> Result<(), Cause> {
+    pub(crate) fn solve(
+        &mut self,
+        matrix_weights: MatrixWeights<P::Real>,
+        half: bool,
+    ) -> Result<(), Cause> {
         let plan = self.plan;
         let mut system = System { plan, diagonal: self.blocks, pairs: self.pair_blocks };
         let places = Places { frames: &*self.frames, signals: &*self.signals };
-        let known = (pencil, if half { self.half_seats } else { self.seats });
+        let known =
+            (matrix_weights, if half { self.half_lumped_joints } else { self.lumped_joints });
         assemble(&self.model, places, self.bodies, known, self.law_states, &mut system);
         system.factor().map_err(|body| Cause::Pivot { body })?;
         system.substitute(self.wrenches);

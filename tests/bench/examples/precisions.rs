@@ -321,7 +321,7 @@ fn moved(model: &mut SceneModel<F64>, by: [f64; 3]) {
     }
     for group in &model.groups {
         let first = usize::from(group.point);
-        let middle = first + usize::from(group.stars);
+        let middle = first + usize::from(group.triples);
         let end = first + group.points();
         // Anchors are ends of the ground, too.
         let ground = |end: BodyIndex| usize::from(end.0) >= model.bodies.len();

@@ -16,7 +16,7 @@ use thiserror::Error;
 pub const STEP: f64 = 1e-5;
 
 /// The most links: the kernel counts a model's elements in 16 bits, of which a revolute has six.
-pub const MOST: usize = u16::MAX as usize / 6;
+pub const MAX: usize = u16::MAX as usize / 6;
 
 /// What joins the links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +44,7 @@ const READ: usize = 4;
 #[derive(Debug, Error)]
 pub enum ChainError {
     /// No links, or too many.
-    #[error("a chain has 1 to {MOST} links, not {0}")]
+    #[error("a chain has 1 to {MAX} links, not {0}")]
     Links(usize),
     /// The scene of a short chain is refused.
     #[error(transparent)]
@@ -84,7 +84,7 @@ pub fn text(links: usize, joints: Joints) -> String {
 /// # Errors
 /// [`ChainError::Links`] where a chain has none or too many of them.
 pub fn model(links: usize, joints: Joints) -> Result<SceneModel<F64>, ChainError> {
-    if !(1..=MOST).contains(&links) {
+    if !(1..=MAX).contains(&links) {
         return Err(ChainError::Links(links));
     }
     let mut model = Scene::parse(&text(links.min(READ), joints), "chain.toml")?.model;
@@ -122,8 +122,8 @@ mod tests {
 
     #[test]
     fn a_chain_has_at_least_a_link_and_at_most_what_is_counted() {
-        assert!(model(0, Joints::Revolute).is_err() && model(MOST + 1, Joints::Revolute).is_err());
-        let longest = model(MOST, Joints::Revolute).unwrap();
+        assert!(model(0, Joints::Revolute).is_err() && model(MAX + 1, Joints::Revolute).is_err());
+        let longest = model(MAX, Joints::Revolute).unwrap();
         assert_eq!(longest.groups.last().map(|group| group.element), Some(65_526));
     }
 

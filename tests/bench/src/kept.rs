@@ -9,7 +9,7 @@
 use dbd_kernel::damping::Damping;
 use dbd_kernel::energy::energy;
 use dbd_kernel::forces::{At, DampersLeft};
-use dbd_kernel::keep::Nothing;
+use dbd_kernel::keep::NoStorage;
 use dbd_kernel::model::Terms;
 use dbd_kernel::plant::{Plant, PlantError};
 use dbd_kernel::status::Cause;
@@ -114,7 +114,7 @@ macro_rules! part_of_a_step {
             const ORDER_DAMPED: u32 = 0;
             const DAMPING: Damping = Damping::Explicit;
             type Memory<P: Geometry> = ();
-            type Keeps = Nothing;
+            type Storage = NoStorage;
 
             fn evaluations(&self) -> u32 {
                 1

@@ -21,7 +21,7 @@ pub fn as_stepped<P: Geometry>(model: &SceneModel<P>, step: f64) -> SceneModel<F
         let Diagonal { mass, inertia } = Diagonal::new(body, h);
         *to = Body::from_f64(half / mass.to_f64(), inertia.to_f64().map(|of| half / of));
     }
-    if P::FALLS {
+    if P::HAS_GRAVITY_STEP {
         for (to, &gravity) in stepped.gravity.iter_mut().zip(&model.gravity) {
             let fall = gravity * (P::Real::HALF * h);
             *to = Vec3::from_f64(fall.to_f64().map(|of| of / half));

@@ -142,9 +142,9 @@ fn figures_are_those_of_the_traces() {
         (&row(&json, "pull")["unit"], &row(&json, "tip.x")["unit"]),
         (&"N".into(), &"m".into())
     );
-    let told = &json["differs"][0];
+    let reported = &json["differs"][0];
     assert_eq!(
-        (&told["what"], &told["a"], &told["b"]),
+        (&reported["what"], &reported["a"], &reported["b"]),
         (&"scheme".into(), &"leapfrog".into(), &"pefrl".into())
     );
     let text = bench.compare(&a, &b, &["--no-report"]).out;
@@ -162,9 +162,12 @@ fn two_stiffnesses_and_two_precisions_are_told() {
     let stiffer = bench.run("b", &["--set", "tsda.spring.stiffness=4e3"]);
     let (json, exit) = bench.json(&a, &stiffer, &[]);
     assert_eq!(exit, Exit::Failed);
-    let told = &json["differs"][0];
-    assert_eq!((&told["what"], &told["b"]), (&"set tsda.spring.stiffness".into(), &"4e3".into()));
-    assert_eq!(told["a"], "2e3");
+    let reported = &json["differs"][0];
+    assert_eq!(
+        (&reported["what"], &reported["b"]),
+        (&"set tsda.spring.stiffness".into(), &"4e3".into())
+    );
+    assert_eq!(reported["a"], "2e3");
     let single = bench.run("c", &["--precision", "f32"]);
     let (json, exit) = bench.json(&a, &single, &[]);
     assert_eq!(exit, Exit::Failed);

@@ -94,11 +94,11 @@ fn what_is_damaged_is_refused_with_its_place() {
     for (value, part) in [
         ("nan", "column `bob.y`: `nan` is not a number as written in a trace"),
         ("NaN", "column `bob.y`: `NaN` is not finite, as it must be in every row"),
-        ("-1.#IND", "`-1.#IND` is not a number"),
-        ("#REF!", "`#REF!` is not a number"),
-        ("", "`` is not a number"),
-        (" 1.0", "` 1.0` is not a number"),
-        ("1e400", "`1e400` is not a number"),
+        ("-1.#IND", "column `bob.y`: `-1.#IND` is not a number as written in a trace"),
+        ("#REF!", "column `bob.y`: `#REF!` is not a number as written in a trace"),
+        ("", "column `bob.y`: `` is not a number as written in a trace"),
+        (" 1.0", "column `bob.y`: ` 1.0` is not a number as written in a trace"),
+        ("1e400", "column `bob.y`: `1e400` is not a number as written in a trace"),
     ] {
         refused(with(6, 2, value).as_bytes(), &keys, &[&(place(6, 2) + part)]);
     }

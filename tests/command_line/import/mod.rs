@@ -1,7 +1,7 @@
 //! MJCF becomes a scene: beside MuJoCo's own trajectory, and what is refused.
 //!
 //! `tests/import/*.xml => scenes`. `two-loops.csv` is what MuJoCo makes of `two-loops.xml`;
-//! `tests/command_line/import/judge.py` writes it, and compares other files.
+//! `tests/command_line/import/monitor.py` writes it, and compares other files.
 
 mod actuators;
 mod chains;

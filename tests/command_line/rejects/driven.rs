@@ -231,7 +231,7 @@ const CASES: &[Case] = &[
 
     // Actuators and anchors.
     case("target = \"cord\" # pulled", "target = «\"wrist\" # pulled", "names the joint \"wrist\"", "the name of a tsda"),
-    case("target = \"cord\" # pulled", "target = «\"pad\" # pulled", "names the tsda `pad`, which has no direction", "`free_length` > 0"),
+    case("target = \"cord\" # pulled", "target = «\"pad\" # pulled", "names the tsda `pad`, which has no free length and therefore no direction", "`free_length` > 0"),
     case("target = \"tyre\"", "target = «\"cord\"", "names `cord`, which is not joined to the world", "joins a body to \"world\""),
     case("target = \"tyre\"", "target = [\"tyre\", «\"coil\"]", "names the torsion_spring \"coil\"", "a joint, a tsda or a point_on_line"),
     case("target = \"tyre\"", "target = [\"tyre\", «\"tyre\"]", "`target`[1] of input `road` names `tyre` a second time", "name each element once"),

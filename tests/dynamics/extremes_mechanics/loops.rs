@@ -155,9 +155,9 @@ fn a_slider_pushed_at_its_dead_centre_moves_as_it_should() {
             let mut way = 0.0_f64;
             let end = follow(&scene, method, step, steps, 20, |t, state| {
                 let shape = if load > 0.0 { (omega * t).sin() } else { (omega * t).sinh() };
-                let truth = nudge / omega * shape;
-                way = way.max(truth.abs());
-                let off = (angle(state) - truth).abs();
+                let reference_solution = nudge / omega * shape;
+                way = way.max(reference_solution.abs());
+                let off = (angle(state) - reference_solution).abs();
                 if nudge == 0.0 { off } else { off / way }
             });
             let bound = match (nudge == 0.0, single(method)) {
@@ -206,7 +206,7 @@ fn a_loop_that_is_torn_comes_back_or_is_told() {
         let ends = each(&UNDAMPED, |_, method| {
             let mut kept = Kept::new(&scene, method, step);
             let end = follow(&scene, method, step, 1_000, 100, |_, state| kept.change(state));
-            assert!(end.is_told() || end.is_loosely_within(0.7), "{speed} {method:?} {end:?}");
+            assert!(end.is_reported() || end.is_loosely_within(0.7), "{speed} {method:?} {end:?}");
             end
         });
         rows.push(vec![figure(speed, 1)], &ends);
@@ -237,9 +237,9 @@ fn moved(by: f64) -> Scene {
 fn a_loop_far_from_the_origin() {
     let (step, steps) = (2e-5, 2_500);
     let rk4 = Way::Rk4.method(PrecisionName::F64);
-    let mut truth: Vec<Vec<BodyState<F64>>> = Vec::new();
+    let mut reference_solution: Vec<Vec<BodyState<F64>>> = Vec::new();
     let _ = follow(&moved(0.0), &rk4, step, steps, 50, |_, state| {
-        truth.push(state.bodies.clone());
+        reference_solution.push(state.bodies.clone());
         0.0
     });
     let mut rows = Rows::new(&["from the origin [m]"], &UNDAMPED);
@@ -249,10 +249,10 @@ fn a_loop_far_from_the_origin() {
             let mut sample = 0;
             let end = follow(&scene, method, step, steps, 50, |_, state| {
                 let origin = Vec3::<f64>::from_f64([by; 3]);
-                let bodies = state.bodies.iter().zip(&truth[sample]);
+                let bodies = state.bodies.iter().zip(&reference_solution[sample]);
                 sample += 1;
-                let off = bodies.map(|(body, truth)| {
-                    let off = body.position - origin - truth.position;
+                let off = bodies.map(|(body, reference_solution)| {
+                    let off = body.position - origin - reference_solution.position;
                     off.dot(off).sqrt()
                 });
                 off.fold(0.0, f64::max)
@@ -261,7 +261,7 @@ fn a_loop_far_from_the_origin() {
                 false => end.is_within(1e-3),
                 true if by < 1e4 => end.is_within(1e-3 * by.max(1.0)),
                 // The joints are smaller than the grid of the positions.
-                true => matches!(end, End::Opened(_)) || end.is_told(),
+                true => matches!(end, End::Opened(_)) || end.is_reported(),
             };
             assert!(right, "{by} {method:?} {end:?}");
             end

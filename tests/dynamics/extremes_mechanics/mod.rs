@@ -7,7 +7,7 @@ mod points;
 mod sizes;
 
 use dbd_kernel::{BodyState, F64, State};
-use dbd_plant::judge::Judge;
+use dbd_plant::monitor::Monitor;
 use dbd_plant::{DampingName, Method, PrecisionName, SchemeName, plant};
 use dbd_scene::{Scene, SceneModel};
 use dbd_tests::page::{block, table};
@@ -34,7 +34,7 @@ impl End {
     }
 
     /// Whether exit 1 said that it is not right.
-    fn is_told(self) -> bool {
+    fn is_reported(self) -> bool {
         matches!(self, End::Diverged | End::Failed)
     }
 
@@ -115,7 +115,7 @@ fn follow(
     mut measure: impl FnMut(f64, &States) -> f64,
 ) -> End {
     let mut plant = plant(scene, method, step).unwrap();
-    let mut judge = Judge::new(scene, plant.as_ref());
+    let mut monitor = Monitor::new(scene, plant.as_ref());
     let mut worst = 0.0_f64;
     for _ in 0..samples {
         let status = plant.advance(steps / samples);
@@ -126,14 +126,14 @@ fn follow(
         }
         let state = plant.state();
         assert!(state.bodies.iter().all(is_finite), "{method:?} {step}: {:?}", state.bodies);
-        if judge.judge(&state).is_err() {
+        if monitor.monitor(&state).is_err() {
             return End::Diverged;
         }
         let measured = measure(plant.time(), &state);
         assert!(measured.is_finite(), "{method:?} {step}: {measured}");
         worst = worst.max(measured);
     }
-    match judge.openings().iter().any(|opening| opening.since.is_some()) {
+    match monitor.openings().iter().any(|opening| opening.since.is_some()) {
         true => End::Opened(worst),
         false => End::Right(worst),
     }

@@ -116,9 +116,9 @@ fn steps_from_the_shortest_to_twice_the_limit() {
         let mut way = 0.0_f64;
         let mut off = 0.0_f64;
         let end = follow(&scene, method, step, 10_000, 100, |t, state| {
-            let truth = AMPLITUDE * (omega * t).cos();
-            way = way.max((AMPLITUDE - truth).abs());
-            off = off.max((x(state, 0) - LENGTH - truth).abs());
+            let reference_solution = AMPLITUDE * (omega * t).cos();
+            way = way.max((AMPLITUDE - reference_solution).abs());
+            off = off.max((x(state, 0) - LENGTH - reference_solution).abs());
             off / way
         });
         match end {
@@ -147,7 +147,7 @@ fn steps_from_the_shortest_to_twice_the_limit() {
         let ends = each(&UNDAMPED, |_, method| {
             let end = run(method, share * method.stability_limit() / omega);
             // Below the limit no growth, and no digit of the phase; beyond it is told.
-            let right = if share < 1.0 { end.is_within(20.0) } else { end.is_told() };
+            let right = if share < 1.0 { end.is_within(20.0) } else { end.is_reported() };
             assert!(right, "{share} {method:?} {end:?}");
             end
         });
@@ -186,7 +186,7 @@ fn dampers_of_any_strength() {
             });
             let explicit = matches!(way, Way::LeapfrogExplicit | Way::Rk4 | Way::Dbd);
             if explicit && strength > 2.8 {
-                assert!(end.is_told(), "{ratio} {method:?} {end:?}");
+                assert!(end.is_reported(), "{ratio} {method:?} {end:?}");
             } else if !explicit || strength < 1.0 {
                 let rounding = if single(method) { 2e-2 } else { 0.0 };
                 let bound = match way {
@@ -226,7 +226,7 @@ fn constants_beyond_single_precision_are_told() {
             });
             let held = name.contains("e-38") || !single(method);
             assert!(
-                if held { end.is_within(0.2) } else { end.is_told() },
+                if held { end.is_within(0.2) } else { end.is_reported() },
                 "{name} {method:?} {end:?}"
             );
             end
@@ -242,7 +242,7 @@ fn constants_beyond_single_precision_are_told() {
             (x(state, 0) - speed / omega * (omega * t).sin()).abs() * omega / speed
         });
         assert!(
-            if single(method) { end.is_told() } else { end.is_within(0.02) },
+            if single(method) { end.is_reported() } else { end.is_within(0.02) },
             "{method:?} {end:?}"
         );
         end

@@ -63,7 +63,7 @@ const LENGTH: f64 = 0.5;
 fn a_spring_with_a_length_is_driven_through_zero() {
     let reach = 2.0 - LENGTH;
     let crossing = (-LENGTH / reach).acos();
-    let truth = |t: f64| {
+    let reference_solution = |t: f64| {
         // Four mirror images in a period: away, through, beyond, and back.
         let turns = t / (2.0 * crossing);
         let (whole, part) = (turns.floor(), turns - turns.floor());
@@ -81,8 +81,9 @@ fn a_spring_with_a_length_is_driven_through_zero() {
         let scene = mount([2.0, 0.0], 0.0, 0.0, LENGTH);
         let ends = each(&UNDAMPED, |_, method| {
             let steps = (10.0 / step) as u64;
-            let end =
-                follow(&scene, method, step, steps, 100, |t, state| (x(state) - truth(t)).abs());
+            let end = follow(&scene, method, step, steps, 100, |t, state| {
+                (x(state) - reference_solution(t)).abs()
+            });
             // The force turns round within a step: of first order, whatever the scheme.
             let bound = 10.0 * step + if single(method) { 1e-4 } else { 0.0 };
             assert!(end.is_within(bound), "{step} {method:?} {end:?}");

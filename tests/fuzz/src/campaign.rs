@@ -17,7 +17,7 @@ use anyhow::{Context as _, Result};
 use crate::block::file_name;
 use crate::execution::TOO_LONG;
 use crate::target::{Finding, Target};
-use crate::worker::{Found, Told};
+use crate::worker::{Found, Reported};
 
 /// What a campaign is.
 #[derive(Clone, Debug)]
@@ -47,7 +47,7 @@ pub enum Extent {
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// What the workers told, added up.
-    pub sum: Told,
+    pub sum: Reported,
     /// How long it took.
     pub time: Duration,
     /// Findings by their keys.
@@ -57,13 +57,13 @@ pub struct Report {
 }
 
 impl Report {
-    fn add(&mut self, told: &Told) {
+    fn add(&mut self, reported: &Reported) {
         let sum = &mut self.sum;
-        sum.executions += told.executions;
-        sum.taken += told.taken;
-        sum.skipped += told.skipped;
-        sum.findings += told.findings;
-        sum.slowest = sum.slowest.max(told.slowest);
+        sum.executions += reported.executions;
+        sum.taken += reported.taken;
+        sum.skipped += reported.skipped;
+        sum.findings += reported.findings;
+        sum.slowest = sum.slowest.max(reported.slowest);
     }
 
     fn find(&mut self, found: Found) {
@@ -191,9 +191,9 @@ fn hear(line: &str, report: &Mutex<Report>) -> Option<u64> {
     if let Some((file, time)) = line.strip_prefix("slow\t").and_then(|rest| rest.split_once('\t')) {
         report.slow.push((file.into(), time.parse().unwrap_or_default()));
     }
-    let told = Told::of_line(line)?;
-    report.add(&told);
-    Some(told.block)
+    let reported = Reported::of_line(line)?;
+    report.add(&reported);
+    Some(reported.block)
 }
 
 /// The table of a campaign and its findings; how many there were.

@@ -20,10 +20,10 @@ use host_sim::cli::main_with;
 use host_sim::terminal::Console;
 
 /// What one input may take: hundreds of times what the largest scene that ships does.
-const MOST_MEMORY: usize = 256 << 20;
+const MAX_MEMORY: usize = 256 << 20;
 
 #[global_allocator]
-static ALLOCATOR: Cap<System> = Cap::new(System, MOST_MEMORY);
+static ALLOCATOR: Cap<System> = Cap::new(System, MAX_MEMORY);
 
 /// Random input for scenes, snapshots, steps and the command line.
 #[derive(Parser)]

@@ -6,7 +6,7 @@
 
 use dbd_kernel::State;
 use dbd_kernel::words::{Word, WordVisitor, Words};
-use dbd_plant::judge::Judge;
+use dbd_plant::monitor::Monitor;
 use dbd_plant::{
     AnyPlant, DampingName, Frequencies, Method, Named, PrecisionName, SchemeName, plant,
 };
@@ -22,7 +22,7 @@ use crate::mutation::{changed, soup};
 use crate::target::{Finding, Reach, Target};
 
 /// Scenes with more bodies are read, but not run: an execution is to be short.
-const MOST_BODIES: usize = 40;
+const MAX_BODIES: usize = 40;
 
 /// One in so many of the scenes that are taken is planned and stepped: reading is what is sought.
 const STEPPED: u64 = 16;
@@ -53,7 +53,7 @@ impl Target for SceneTarget {
             Err(error) => refusal(&text, &error).map(|()| Reach::Refused),
             Ok(scene) => {
                 let choice = fnv(input);
-                if choice.is_multiple_of(STEPPED) && scene.body_names.len() <= MOST_BODIES {
+                if choice.is_multiple_of(STEPPED) && scene.body_names.len() <= MAX_BODIES {
                     run(&scene, &mut Rng::with_seed(choice))?;
                 }
                 Ok(Reach::Taken)
@@ -128,7 +128,7 @@ fn run(scene: &Scene, random: &mut Rng) -> Result<(), Finding> {
         || format!("{plan:?}"),
     )?;
     let Ok(mut plant) = plant(scene, &method, plan.step) else { return Ok(()) };
-    let mut judge = Judge::new(scene, plant.as_ref());
+    let mut monitor = Monitor::new(scene, plant.as_ref());
     for _ in 0..plan.steps.min(4) {
         let status = plant.step();
         let state = plant.state();
@@ -136,7 +136,7 @@ fn run(scene: &Scene, random: &mut Rng) -> Result<(), Finding> {
         for readout in &scene.readouts {
             let _ = plant.read(&readout.readout);
         }
-        if !status.is_running() || judge.judge(&state).is_err() {
+        if !status.is_running() || monitor.monitor(&state).is_err() {
             break;
         }
     }

@@ -6,7 +6,7 @@
 //! it is, and the same steps give the same bits.
 
 use arbitrary::Unstructured;
-use dbd_kernel::builder::{LineLaw, ModelBuilder, Stars};
+use dbd_kernel::builder::{LineLaw, ModelBuilder, Triples};
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
 use dbd_kernel::index::InputIndex;
@@ -218,7 +218,7 @@ pub fn model<P: Geometry>(bytes: &mut Unstructured<'_>) -> (Wildness, Model<P>) 
     }
     for _ in 0..byte(bytes) % 12 {
         match byte(bytes) % 12 {
-            0..=3 => add_stars(&mut model, bytes, wild),
+            0..=3 => add_triples(&mut model, bytes, wild),
             4 | 5 => add_line(&mut model, bytes, wild),
             6 | 7 => {
                 let between = [body(bytes), body(bytes)];
@@ -281,7 +281,7 @@ fn now_and_then(bytes: &mut Unstructured<'_>, wild: Wildness) -> f64 {
     if one_in(bytes, 4) { size(bytes, wild) } else { 0.0 }
 }
 
-fn add_stars<P: Geometry>(model: &mut Model<P>, bytes: &mut Unstructured<'_>, wild: Wildness) {
+fn add_triples<P: Geometry>(model: &mut Model<P>, bytes: &mut Unstructured<'_>, wild: Wildness) {
     let points: [[f64; 3]; 12] = std::array::from_fn(|i| {
         // A joint's points, most of them read from the input.
         if i < 4 || wild == Wildness::Wild {
@@ -292,7 +292,7 @@ fn add_stars<P: Geometry>(model: &mut Model<P>, bytes: &mut Unstructured<'_>, wi
     });
     let (centres, arms) =
         [(1, 1), (1, 3), (2, 3), (2, 6), (2, 2), (3, 9), (0, 0), (2, 1)][below(bytes, 8)];
-    let _ = model.add_stars(Stars {
+    let _ = model.add_triples(Triples {
         between: [body(bytes), body(bytes)],
         centres: &points[..centres],
         arms: &points[centres..centres + arms],

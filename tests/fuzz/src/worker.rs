@@ -43,7 +43,7 @@ pub struct Work {
 
 /// What a worker tells.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Told {
+pub struct Reported {
     /// The block it is about.
     pub block: u64,
     /// Inputs that were run.
@@ -58,7 +58,7 @@ pub struct Told {
     pub findings: u64,
 }
 
-impl Told {
+impl Reported {
     fn line(&self) -> String {
         let Self { block, executions, taken, skipped, slowest, findings } = self;
         let slowest = slowest.as_nanos();
@@ -114,8 +114,8 @@ pub fn work(target: &dyn Target, work: &Work) -> Result<()> {
     let mut known = BTreeSet::new();
     let mut block = work.first;
     while block < work.end && begun.elapsed() < work.time {
-        let told = run_block(target, work, block, &mut known)?;
-        say(&told.line())?;
+        let reported = run_block(target, work, block, &mut known)?;
+        say(&reported.line())?;
         let Some(next) = block.checked_add(work.stride) else { break };
         block = next;
     }
@@ -132,8 +132,8 @@ fn run_block(
     work: &Work,
     block: u64,
     known: &mut BTreeSet<String>,
-) -> Result<Told> {
-    let mut told = Told { block, ..Told::default() };
+) -> Result<Reported> {
+    let mut reported = Reported { block, ..Reported::default() };
     for input in inputs(target, work.seed, block) {
         if let Some(trace) = &work.trace {
             fs::write(trace, &input).context("the trace cannot be written")?;
@@ -147,27 +147,27 @@ fn run_block(
             let _ = execute(target, &input);
             took = took.min(again.elapsed());
         }
-        if took > SLOW.max(told.slowest) {
+        if took > SLOW.max(reported.slowest) {
             keep_slow(target, &work.findings, &input, took)?;
         }
-        told.slowest = told.slowest.max(took);
+        reported.slowest = reported.slowest.max(took);
         match outcome {
             Ok(Reach::Skipped) => {
-                told.skipped += 1;
+                reported.skipped += 1;
                 continue;
             }
-            Ok(Reach::Taken) => told.taken += 1,
+            Ok(Reach::Taken) => reported.taken += 1,
             Ok(Reach::Refused) => {}
             Err(finding) => {
-                told.findings += 1;
+                reported.findings += 1;
                 if known.insert(finding.key.clone()) {
                     tell(target, &work.findings, &input, finding)?;
                 }
             }
         }
-        told.executions += 1;
+        reported.executions += 1;
     }
-    Ok(told)
+    Ok(reported)
 }
 
 /// Writes an input that took long and tells of it.
@@ -194,8 +194,9 @@ mod tests {
     #[test]
     fn lines_are_read_back() {
         let slowest = Duration::from_nanos(5);
-        let told = Told { block: 7, executions: 1, taken: 2, skipped: 3, slowest, findings: 4 };
-        assert_eq!(Told::of_line(&told.line()), Some(told));
+        let reported =
+            Reported { block: 7, executions: 1, taken: 2, skipped: 3, slowest, findings: 4 };
+        assert_eq!(Reported::of_line(&reported.line()), Some(reported));
         let finding = Finding { key: "a b".into(), message: "c:\n\td".into() };
         let found = Found { file: "x/y".into(), finding };
         let read = Found::of_line(&found.line()).unwrap();

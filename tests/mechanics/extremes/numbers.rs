@@ -1,6 +1,6 @@
 //! Numbers at their ends: denormals, −0, points that all but coincide, scenes far from the origin.
 
-use dbd_kernel::builder::Stars;
+use dbd_kernel::builder::Triples;
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
@@ -110,7 +110,7 @@ fn pendulum<P: Geometry>(origin: [f64; 3], zero: f64) -> Bench<P> {
     let body = model.add_body(1.0, [0.02, 0.05, 0.06], state).unwrap();
     let between = [BodyIndex::WORLD, body];
     let ring = [[0.2, 0.0, zero], [-0.1, 0.17, zero], [-0.1, -0.17, zero]];
-    let stars = Stars {
+    let triples = Triples {
         between,
         centres: &[[zero, zero, 0.2], [zero, zero, -0.2]].map(shifted),
         arms: &ring.map(|d| [d[0] - 0.5, d[1], d[2]]),
@@ -119,7 +119,7 @@ fn pendulum<P: Geometry>(origin: [f64; 3], zero: f64) -> Bench<P> {
         free_length: 0.25,
         clearance: 0.0,
     };
-    model.add_stars(stars).unwrap();
+    model.add_triples(triples).unwrap();
     model.add_torsion_spring(between, [zero, zero, 1.0], 2.0, 0.01, 0.0).unwrap();
     model
 }
@@ -158,9 +158,9 @@ fn misplaced<P: Geometry>(from_origin: f64) -> Result<f64, u64> {
         body.position = body.position - Vec3::from_f64(origin);
         Ok(body)
     }
-    let truth = end::<F64>([0.0; 3])?;
+    let reference_solution = end::<F64>([0.0; 3])?;
     let moved = end::<P>([from_origin, -from_origin, from_origin])?;
-    Ok(distance(&[moved], &[truth]))
+    Ok(distance(&[moved], &[reference_solution]))
 }
 
 #[test]

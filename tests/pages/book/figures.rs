@@ -95,7 +95,7 @@ fn the_figure_of_energy_is_what_runs_give() {
 /// Errors over the step of a scheme in a precision.
 struct Errors<'s> {
     scene: &'s Scene,
-    truth: Vec<State<SceneModel<F64>>>,
+    reference_solution: Vec<State<SceneModel<F64>>>,
 }
 
 /// \[s\] how much of a motion is compared.
@@ -104,7 +104,7 @@ const WINDOW: f64 = 0.1;
 impl<'s> Errors<'s> {
     fn new(scene: &'s Scene) -> Self {
         // PEFRL is of order 4: far below what any run shows.
-        Self { scene, truth: states::<F64, _>(scene, Pefrl, 100_000, WINDOW) }
+        Self { scene, reference_solution: states::<F64, _>(scene, Pefrl, 100_000, WINDOW) }
     }
 
     /// (step, error) \[µs, µm\] for so many steps each; what fails or is lost is left out.
@@ -117,7 +117,7 @@ impl<'s> Errors<'s> {
     }
 
     fn off<P: Geometry, S: Scheme>(&self, scheme: S, steps: u64) -> Option<f64> {
-        error::<P>(&states::<P, S>(self.scene, scheme, steps, WINDOW), &self.truth)
+        error::<P>(&states::<P, S>(self.scene, scheme, steps, WINDOW), &self.reference_solution)
     }
 }
 

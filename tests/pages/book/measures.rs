@@ -72,13 +72,16 @@ pub const SAMPLES: u64 = 20;
 /// The largest distance \[m\] of a body from the truth over the samples; none where the run failed.
 pub fn error<P: Geometry>(
     run: &[State<SceneModel<P>>],
-    truth: &[State<SceneModel<F64>>],
+    reference_solution: &[State<SceneModel<F64>>],
 ) -> Option<f64> {
     let double = |state: &State<SceneModel<P>>| -> Vec<BodyState<F64>> {
         state.bodies.iter().map(|body| at(P::position_to_f64(&body.position))).collect()
     };
-    let off = run.iter().zip(truth).map(|(run, truth)| distance(&double(run), &truth.bodies));
-    (run.len() == truth.len()).then(|| off.fold(0.0, f64::max))
+    let off = run
+        .iter()
+        .zip(reference_solution)
+        .map(|(run, reference_solution)| distance(&double(run), &reference_solution.bodies));
+    (run.len() == reference_solution.len()).then(|| off.fold(0.0, f64::max))
 }
 
 fn at(position: [f64; 3]) -> BodyState<F64> {

@@ -15,8 +15,12 @@ use syn::{Expr, ExprLit, Field, GenericArgument, Lit, Meta, PathArguments, Type,
 const CRATES: [&str; 5] =
     ["kernel", "crates/scene", "crates/plant", "crates/golden", "crates/node"];
 /// Files whose types are numbers of any unit: vectors, constants of arithmetic, a precision.
-const ANY_UNIT: [&str; 4] =
-    ["kernel/src/vector.rs", "kernel/src/plane.rs", "kernel/src/real.rs", "kernel/src/loose.rs"];
+const ANY_UNIT: [&str; 4] = [
+    "kernel/src/vector.rs",
+    "kernel/src/plane.rs",
+    "kernel/src/real.rs",
+    "kernel/src/approximate.rs",
+];
 /// What a number is called in the sources.
 const NUMBERS: [&str; 5] = ["f64", "f32", "R", "Real", "Local"];
 /// What holds numbers of one unit.

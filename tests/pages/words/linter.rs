@@ -273,7 +273,7 @@ fn planted_phrases_are_found() {
     assert_eq!(phrases("A step of 3 s is none.").len(), 1);
     assert_eq!(phrases("`None` where there is none."), [""; 0]);
     assert_eq!(phrases("The name `stands` is code."), [""; 0]);
-    assert_eq!(phrases("It stands in the file, and the truth is told apart.").len(), 3);
+    assert_eq!(phrases("It stands in the file, and the truth is told apart.").len(), 4);
     let odd = "# What it is\n\nThe joint gives way.\n\n- For who reads\n\n```\nthe truth\n```\n";
     assert_eq!(breaches_of_page("a.md", odd).len(), 3, "{:?}", breaches_of_page("a.md", odd));
     let long = format!("# Length\n\n{}.\n", "word ".repeat(30));

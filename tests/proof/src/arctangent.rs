@@ -120,9 +120,9 @@ impl Sector {
 
     fn error_f32(&self, small: f32, large: f32) -> Worst {
         let [y, x] = self.point(small, large);
-        let truth = libm::atan2(y.into(), x.into());
-        let error = (f64::from(atan2(y, x)) - truth).abs();
-        let nearest = (truth as f32).abs();
+        let reference_solution = libm::atan2(y.into(), x.into());
+        let error = (f64::from(atan2(y, x)) - reference_solution).abs();
+        let nearest = (reference_solution as f32).abs();
         Worst { angle: error, places: error / f64::from(nearest.next_up() - nearest) }
     }
 
@@ -133,15 +133,16 @@ impl Sector {
         let rounding = RoundingMode::None;
         // The angle of the quotient, and where the sector puts it.
         let quotient = digits(small).div(&digits(large), DIGITS, rounding);
-        let mut truth = quotient.atan(DIGITS, rounding, constants);
+        let mut reference_solution = quotient.atan(DIGITS, rounding, constants);
         let pi = constants.pi(DIGITS, rounding);
         if self.steep {
-            truth = pi.div(&digits(2.0), DIGITS, rounding).sub(&truth, DIGITS, rounding);
+            reference_solution =
+                pi.div(&digits(2.0), DIGITS, rounding).sub(&reference_solution, DIGITS, rounding);
         }
         if self.left {
-            truth = pi.sub(&truth, DIGITS, rounding);
+            reference_solution = pi.sub(&reference_solution, DIGITS, rounding);
         }
-        let error = nearest(&digits(angle).sub(&truth, DIGITS, rounding)).abs();
+        let error = nearest(&digits(angle).sub(&reference_solution, DIGITS, rounding)).abs();
         Worst { angle: error, places: error / (angle.next_up() - angle) }
     }
 }

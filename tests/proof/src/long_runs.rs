@@ -4,7 +4,7 @@
 //! springs whose fastest vibration has ω·h = 0.3; leapfrog, which keeps the first's momentum and a
 //! bounded error of the second's energy.
 
-use dbd_kernel::builder::{ModelBuilder, Stars};
+use dbd_kernel::builder::{ModelBuilder, Triples};
 use dbd_kernel::energy::energy;
 use dbd_kernel::{BodyIndex, BodyState, F64, Geometry, Leapfrog, Plant, State, Vec3};
 
@@ -62,7 +62,7 @@ pub fn swinging<P: Geometry>(steps: u64) -> Drift {
         let state =
             BodyState::from_f64([0.5, 0.0, 0.0], unturned, [0.0, 0.4, 0.0], [1.0, 0.0, 0.8]);
         let body = model.add_body(1.0, [0.02, 0.05, 0.06], state).expect("there is room");
-        let stars = Stars {
+        let triples = Triples {
             between: [BodyIndex::WORLD, body],
             centres: &[[0.0; 3]],
             arms: &[[-0.3, 0.0, 0.1], [-0.6, 0.17, 0.1], [-0.6, -0.17, 0.1]],
@@ -71,7 +71,7 @@ pub fn swinging<P: Geometry>(steps: u64) -> Drift {
             free_length: 0.22,
             clearance: 0.0,
         };
-        model.add_stars(stars).expect("there is room");
+        model.add_triples(triples).expect("there is room");
         model
     }
     drift(model::<P>, model, 1e-3, steps, None)

@@ -78,8 +78,8 @@ fn compare(toolchain: &Toolchain, host: &PathBuf, ticks: [u32; 2]) -> Result<()>
 /// Whether the lines that tell what was done are the same, and there are some.
 fn same(host: &[String], target: &[String]) -> Result<()> {
     let done = |lines: &[String]| -> Vec<String> {
-        let told = |line: &&String| line.starts_with("loop ") || line.starts_with("last ");
-        lines.iter().filter(told).cloned().collect()
+        let reported = |line: &&String| line.starts_with("loop ") || line.starts_with("last ");
+        lines.iter().filter(reported).cloned().collect()
     };
     let [host, target] = [host, target].map(done);
     if host.is_empty() {
@@ -105,7 +105,7 @@ struct Pace {
 }
 
 impl Pace {
-    /// Reads `pace NAME overruns N busy MEAN us of PERIOD, MOST in tick TICK`.
+    /// Reads `pace NAME overruns N busy MEAN us of PERIOD, MAX in tick TICK`.
     fn of(lines: &[String]) -> Result<Self> {
         let line = lines.iter().find(|line| line.starts_with("pace "));
         let line = line.context("the target printed no pace")?;

@@ -4,7 +4,7 @@ use std::array::from_fn;
 use std::ops::{BitAnd, BitOr, Not};
 
 use dbd_kernel::Real;
-use dbd_kernel::real::Truth;
+use dbd_kernel::real::Mask;
 
 use crate::register::interface::{Register, Work, constants};
 
@@ -20,9 +20,9 @@ pub(crate) struct Array<T, const W: usize>([T; W]);
 
 /// A mask per lane.
 #[derive(Clone, Copy)]
-pub(crate) struct Truths<const W: usize>([bool; W]);
+pub(crate) struct Masks<const W: usize>([bool; W]);
 
-impl<const W: usize> BitAnd for Truths<W> {
+impl<const W: usize> BitAnd for Masks<W> {
     type Output = Self;
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
@@ -30,7 +30,7 @@ impl<const W: usize> BitAnd for Truths<W> {
     }
 }
 
-impl<const W: usize> BitOr for Truths<W> {
+impl<const W: usize> BitOr for Masks<W> {
     type Output = Self;
     #[inline(always)]
     fn bitor(self, other: Self) -> Self {
@@ -38,22 +38,22 @@ impl<const W: usize> BitOr for Truths<W> {
     }
 }
 
-impl<const W: usize> Not for Truths<W> {
+impl<const W: usize> Not for Masks<W> {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        Self(self.0.map(|truth| !truth))
+        Self(self.0.map(|mask| !mask))
     }
 }
 
-impl<const W: usize> Truth for Truths<W> {
+impl<const W: usize> Mask for Masks<W> {
     #[inline(always)]
     fn any(self) -> bool {
-        self.0.iter().fold(false, |any, truth| any | truth)
+        self.0.iter().fold(false, |any, mask| any | mask)
     }
     #[inline(always)]
     fn all(self) -> bool {
-        self.0.iter().fold(true, |all, truth| all & truth)
+        self.0.iter().fold(true, |all, mask| all & mask)
     }
 }
 
@@ -73,7 +73,7 @@ macro_rules! array {
 
         impl Register for Array<$number, $lanes> {
             type Number = $number;
-            type Truth = Truths<$lanes>;
+            type Mask = Masks<$lanes>;
             type Count = [i32; $lanes];
 
             const LANES: usize = $lanes;
@@ -92,12 +92,12 @@ macro_rules! array {
                 self.0[lane]
             }
             #[inline(always)]
-            fn truth(lanes: impl Fn(usize) -> bool) -> Truths<$lanes> {
-                Truths(from_fn(lanes))
+            fn mask(lanes: impl Fn(usize) -> bool) -> Masks<$lanes> {
+                Masks(from_fn(lanes))
             }
             #[inline(always)]
-            fn bits(truth: Truths<$lanes>) -> u32 {
-                (0..$lanes).fold(0, |bits, lane| bits | u32::from(truth.0[lane]) << lane)
+            fn bits(mask: Masks<$lanes>) -> u32 {
+                (0..$lanes).fold(0, |bits, lane| bits | u32::from(mask.0[lane]) << lane)
             }
             #[inline(always)]
             fn add(self, other: Self) -> Self {
@@ -124,20 +124,20 @@ macro_rules! array {
                 Self(self.0.map(<$number>::sqrt))
             }
             #[inline(always)]
-            fn equals(self, other: Self) -> Truths<$lanes> {
-                Truths(from_fn(|i| self.0[i] == other.0[i]))
+            fn equals(self, other: Self) -> Masks<$lanes> {
+                Masks(from_fn(|i| self.0[i] == other.0[i]))
             }
             #[inline(always)]
-            fn less_than(self, other: Self) -> Truths<$lanes> {
-                Truths(from_fn(|i| self.0[i] < other.0[i]))
+            fn less_than(self, other: Self) -> Masks<$lanes> {
+                Masks(from_fn(|i| self.0[i] < other.0[i]))
             }
             #[inline(always)]
-            fn at_most(self, other: Self) -> Truths<$lanes> {
-                Truths(from_fn(|i| self.0[i] <= other.0[i]))
+            fn at_most(self, other: Self) -> Masks<$lanes> {
+                Masks(from_fn(|i| self.0[i] <= other.0[i]))
             }
             #[inline(always)]
-            fn pick(truth: Truths<$lanes>, then: Self, otherwise: Self) -> Self {
-                Self(from_fn(|i| if truth.0[i] { then.0[i] } else { otherwise.0[i] }))
+            fn pick(mask: Masks<$lanes>, then: Self, otherwise: Self) -> Self {
+                Self(from_fn(|i| if mask.0[i] { then.0[i] } else { otherwise.0[i] }))
             }
             #[inline(always)]
             fn counts(stored: &[i32]) -> &[[i32; $lanes]] {

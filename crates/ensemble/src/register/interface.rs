@@ -2,15 +2,15 @@
 
 use dbd_kernel::Real;
 use dbd_kernel::geometry::Named;
-use dbd_kernel::real::Truth;
+use dbd_kernel::real::Mask;
 
 /// A register of numbers. Its operations require its instruction set, which [`crate::InstructionSet::is_there`] checks
 /// first. Within [`Register::enter`] each is an instruction, elsewhere a call.
 pub(crate) trait Register: Copy + Send + Sync + 'static {
     /// The number in each lane.
-    type Number: Real<Truth = bool, Count = i32> + Named;
+    type Number: Real<Mask = bool, Count = i32> + Named;
     /// A mask per lane.
-    type Truth: Truth;
+    type Mask: Mask;
     /// A revolution count per lane, as stored.
     type Count: Copy + AsRef<[i32]> + AsMut<[i32]>;
 
@@ -32,9 +32,9 @@ pub(crate) trait Register: Copy + Send + Sync + 'static {
     /// The number in a lane.
     fn lane(self, lane: usize) -> Self::Number;
     /// A mask per lane.
-    fn truth(lanes: impl Fn(usize) -> bool) -> Self::Truth;
+    fn mask(lanes: impl Fn(usize) -> bool) -> Self::Mask;
     /// The mask bits, lane 0 lowest.
-    fn bits(truth: Self::Truth) -> u32;
+    fn bits(mask: Self::Mask) -> u32;
 
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
@@ -42,10 +42,10 @@ pub(crate) trait Register: Copy + Send + Sync + 'static {
     fn div(self, other: Self) -> Self;
     fn neg(self) -> Self;
     fn sqrt(self) -> Self;
-    fn equals(self, other: Self) -> Self::Truth;
-    fn less_than(self, other: Self) -> Self::Truth;
-    fn at_most(self, other: Self) -> Self::Truth;
-    fn pick(truth: Self::Truth, then: Self, otherwise: Self) -> Self;
+    fn equals(self, other: Self) -> Self::Mask;
+    fn less_than(self, other: Self) -> Self::Mask;
+    fn at_most(self, other: Self) -> Self::Mask;
+    fn pick(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
     /// Revolution counts as stored, for all lanes of a register.
     fn counts(stored: &[i32]) -> &[Self::Count];
     /// Likewise.

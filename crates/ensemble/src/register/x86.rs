@@ -6,7 +6,7 @@ use std::arch::x86_64::*;
 use std::ops::{BitAnd, BitOr, Not};
 
 use dbd_kernel::Real;
-use dbd_kernel::real::Truth;
+use dbd_kernel::real::Mask;
 
 use crate::register::interface::{Register, Work, constants};
 
@@ -17,11 +17,11 @@ use crate::register::interface::{Register, Work, constants};
 macro_rules! register {
     (
         $(#[$doc:meta])* $name:ident, $number:ty, $lanes:literal, $inner:ty, $feature:literal,
-        $truth:ident, $truth_inner:ty,
+        $mask:ident, $mask_inner:ty,
         add $add:ident, sub $sub:ident, mul $mul:ident, div $div:ident, sqrt $sqrt:ident,
         splat $splat:ident,
         neg $neg:expr, compare $compare:ident, pick $pick:expr,
-        and $and:expr, or $or:expr, not $not:expr, bits $bits:expr, truth $from:ident,
+        and $and:expr, or $or:expr, not $not:expr, bits $bits:expr, mask $from:ident,
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -31,9 +31,9 @@ macro_rules! register {
         /// A mask per lane.
         #[derive(Clone, Copy)]
         #[repr(transparent)]
-        pub(crate) struct $truth($truth_inner);
+        pub(crate) struct $mask($mask_inner);
 
-        impl BitAnd for $truth {
+        impl BitAnd for $mask {
             type Output = Self;
             #[inline(always)]
             fn bitand(self, other: Self) -> Self {
@@ -42,7 +42,7 @@ macro_rules! register {
             }
         }
 
-        impl BitOr for $truth {
+        impl BitOr for $mask {
             type Output = Self;
             #[inline(always)]
             fn bitor(self, other: Self) -> Self {
@@ -51,7 +51,7 @@ macro_rules! register {
             }
         }
 
-        impl Not for $truth {
+        impl Not for $mask {
             type Output = Self;
             #[inline(always)]
             fn not(self) -> Self {
@@ -60,7 +60,7 @@ macro_rules! register {
             }
         }
 
-        impl Truth for $truth {
+        impl Mask for $mask {
             #[inline(always)]
             fn any(self) -> bool {
                 <$name>::bits(self) != 0
@@ -97,7 +97,7 @@ macro_rules! register {
 
         impl Register for $name {
             type Number = $number;
-            type Truth = $truth;
+            type Mask = $mask;
             type Count = [i32; $lanes];
 
             const LANES: usize = $lanes;
@@ -117,14 +117,14 @@ macro_rules! register {
                 self.to_array()[lane]
             }
             #[inline(always)]
-            fn truth(lanes: impl Fn(usize) -> bool) -> $truth {
+            fn mask(lanes: impl Fn(usize) -> bool) -> $mask {
                 // SAFETY: see above.
-                $truth(unsafe { $from!($lanes, lanes) })
+                $mask(unsafe { $from!($lanes, lanes) })
             }
             #[inline(always)]
-            fn bits(truth: $truth) -> u32 {
+            fn bits(mask: $mask) -> u32 {
                 // SAFETY: see above.
-                unsafe { ($bits)(truth.0) }
+                unsafe { ($bits)(mask.0) }
             }
             #[inline(always)]
             fn add(self, other: Self) -> Self {
@@ -157,24 +157,24 @@ macro_rules! register {
                 Self(unsafe { $sqrt(self.0) })
             }
             #[inline(always)]
-            fn equals(self, other: Self) -> $truth {
+            fn equals(self, other: Self) -> $mask {
                 // SAFETY: see above.
-                $truth(unsafe { $compare!(_CMP_EQ_OQ, self.0, other.0) })
+                $mask(unsafe { $compare!(_CMP_EQ_OQ, self.0, other.0) })
             }
             #[inline(always)]
-            fn less_than(self, other: Self) -> $truth {
+            fn less_than(self, other: Self) -> $mask {
                 // SAFETY: see above.
-                $truth(unsafe { $compare!(_CMP_LT_OQ, self.0, other.0) })
+                $mask(unsafe { $compare!(_CMP_LT_OQ, self.0, other.0) })
             }
             #[inline(always)]
-            fn at_most(self, other: Self) -> $truth {
+            fn at_most(self, other: Self) -> $mask {
                 // SAFETY: see above.
-                $truth(unsafe { $compare!(_CMP_LE_OQ, self.0, other.0) })
+                $mask(unsafe { $compare!(_CMP_LE_OQ, self.0, other.0) })
             }
             #[inline(always)]
-            fn pick(truth: $truth, then: Self, otherwise: Self) -> Self {
+            fn pick(mask: $mask, then: Self, otherwise: Self) -> Self {
                 // SAFETY: see above.
-                Self(unsafe { ($pick)(truth.0, then.0, otherwise.0) })
+                Self(unsafe { ($pick)(mask.0, then.0, otherwise.0) })
             }
             #[inline(always)]
             fn counts(stored: &[i32]) -> &[[i32; $lanes]] {
@@ -223,68 +223,68 @@ macro_rules! compare_512_double {
 
 // A mask of as many bits as the number has, for each lane.
 macro_rules! mask_single {
-    ($lanes:literal, $truth:expr) => {{
-        let lanes: [u32; $lanes] = std::array::from_fn(|i| if $truth(i) { u32::MAX } else { 0 });
+    ($lanes:literal, $mask:expr) => {{
+        let lanes: [u32; $lanes] = std::array::from_fn(|i| if $mask(i) { u32::MAX } else { 0 });
         std::mem::transmute::<[u32; $lanes], __m256>(lanes)
     }};
 }
 
 macro_rules! mask_double {
-    ($lanes:literal, $truth:expr) => {{
-        let lanes: [u64; $lanes] = std::array::from_fn(|i| if $truth(i) { u64::MAX } else { 0 });
+    ($lanes:literal, $mask:expr) => {{
+        let lanes: [u64; $lanes] = std::array::from_fn(|i| if $mask(i) { u64::MAX } else { 0 });
         std::mem::transmute::<[u64; $lanes], __m256d>(lanes)
     }};
 }
 
 // A bit for each lane.
 macro_rules! mask_bits {
-    ($lanes:literal, $truth:expr) => {
-        (0..$lanes).fold(0, |bits, lane| bits | (u32::from($truth(lane)) << lane)) as _
+    ($lanes:literal, $mask:expr) => {
+        (0..$lanes).fold(0, |bits, lane| bits | (u32::from($mask(lane)) << lane)) as _
     };
 }
 
 register! {
     /// Eight numbers of single precision.
-    Singles256, f32, 8, __m256, "avx2", Truths8x32, __m256,
+    Singles256, f32, 8, __m256, "avx2", Masks8x32, __m256,
     add _mm256_add_ps, sub _mm256_sub_ps, mul _mm256_mul_ps, div _mm256_div_ps,
     sqrt _mm256_sqrt_ps, splat _mm256_set1_ps,
     neg |x| _mm256_xor_ps(x, _mm256_set1_ps(-0.0)), compare compare_256_single,
-    pick |truth, then, otherwise| _mm256_blendv_ps(otherwise, then, truth),
+    pick |mask, then, otherwise| _mm256_blendv_ps(otherwise, then, mask),
     and _mm256_and_ps, or _mm256_or_ps,
     not |x| _mm256_xor_ps(x, _mm256_castsi256_ps(_mm256_set1_epi32(-1))),
-    bits |x| _mm256_movemask_ps(x) as u32, truth mask_single,
+    bits |x| _mm256_movemask_ps(x) as u32, mask mask_single,
 }
 
 register! {
     /// Four numbers of double precision.
-    Doubles256, f64, 4, __m256d, "avx2", Truths4x64, __m256d,
+    Doubles256, f64, 4, __m256d, "avx2", Masks4x64, __m256d,
     add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, div _mm256_div_pd,
     sqrt _mm256_sqrt_pd, splat _mm256_set1_pd,
     neg |x| _mm256_xor_pd(x, _mm256_set1_pd(-0.0)), compare compare_256_double,
-    pick |truth, then, otherwise| _mm256_blendv_pd(otherwise, then, truth),
+    pick |mask, then, otherwise| _mm256_blendv_pd(otherwise, then, mask),
     and _mm256_and_pd, or _mm256_or_pd,
     not |x| _mm256_xor_pd(x, _mm256_castsi256_pd(_mm256_set1_epi32(-1))),
-    bits |x| _mm256_movemask_pd(x) as u32, truth mask_double,
+    bits |x| _mm256_movemask_pd(x) as u32, mask mask_double,
 }
 
 register! {
     /// Sixteen numbers of single precision.
-    Singles512, f32, 16, __m512, "avx512f,avx512dq", Truths16, __mmask16,
+    Singles512, f32, 16, __m512, "avx512f,avx512dq", Masks16, __mmask16,
     add _mm512_add_ps, sub _mm512_sub_ps, mul _mm512_mul_ps, div _mm512_div_ps,
     sqrt _mm512_sqrt_ps, splat _mm512_set1_ps,
     neg |x| _mm512_xor_ps(x, _mm512_set1_ps(-0.0)), compare compare_512_single,
-    pick |truth, then, otherwise| _mm512_mask_blend_ps(truth, otherwise, then),
+    pick |mask, then, otherwise| _mm512_mask_blend_ps(mask, otherwise, then),
     and BitAnd::bitand, or BitOr::bitor, not Not::not,
-    bits |x: __mmask16| u32::from(x), truth mask_bits,
+    bits |x: __mmask16| u32::from(x), mask mask_bits,
 }
 
 register! {
     /// Eight numbers of double precision.
-    Doubles512, f64, 8, __m512d, "avx512f,avx512dq", Truths8, __mmask8,
+    Doubles512, f64, 8, __m512d, "avx512f,avx512dq", Masks8, __mmask8,
     add _mm512_add_pd, sub _mm512_sub_pd, mul _mm512_mul_pd, div _mm512_div_pd,
     sqrt _mm512_sqrt_pd, splat _mm512_set1_pd,
     neg |x| _mm512_xor_pd(x, _mm512_set1_pd(-0.0)), compare compare_512_double,
-    pick |truth, then, otherwise| _mm512_mask_blend_pd(truth, otherwise, then),
+    pick |mask, then, otherwise| _mm512_mask_blend_pd(mask, otherwise, then),
     and BitAnd::bitand, or BitOr::bitor, not Not::not,
-    bits |x: __mmask8| u32::from(x), truth mask_bits,
+    bits |x: __mmask8| u32::from(x), mask mask_bits,
 }

@@ -6,7 +6,7 @@ use dbd_kernel::schemes::{GeneralizedAlpha, RhoError};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::MOST_ITERATIONS;
+use super::MAX_ITERATIONS;
 
 /// Invalid methods.
 #[derive(Clone, Copy, Debug, PartialEq, Error, Diagnostic)]
@@ -20,10 +20,10 @@ pub enum MethodError {
         /// The scheme's name.
         scheme: &'static str,
     },
-    /// More than [`MOST_ITERATIONS`].
-    #[error("{newton} Newton iterations exceed the maximum of {MOST_ITERATIONS}")]
+    /// More than [`MAX_ITERATIONS`].
+    #[error("{newton} Newton iterations exceed the maximum of {MAX_ITERATIONS}")]
     #[diagnostic(help(
-        "use --newton 0 to --newton {MOST_ITERATIONS}; further iterations change nothing"
+        "use --newton 0 to --newton {MAX_ITERATIONS}; further iterations change nothing"
     ))]
     Iterations {
         /// The number.
@@ -38,7 +38,7 @@ pub enum MethodError {
     },
     /// ρ∞ out of range.
     #[error("{0}")]
-    #[diagnostic(help("give --rho from 0 (most damping) to {most} (least); the default is 0.5", most = GeneralizedAlpha::MOST_RHO))]
+    #[diagnostic(help("give --rho from 0 (most damping) to {most} (least); the default is 0.5", most = GeneralizedAlpha::MAX_RHO))]
     Rho(RhoError),
     /// A damping that the scheme does not support.
     #[error("the scheme {scheme} does not support {asked} damping, only {own}")]

@@ -18,10 +18,10 @@ use dbd_kernel::schemes::{
 use crate::names::{DampingName, Named as _, OrientationName, PrecisionName, SchemeName};
 
 /// Maximum number of Newton iterations: more only change the stable step.
-pub const MOST_ITERATIONS: u32 = 8;
+pub const MAX_ITERATIONS: u32 = 8;
 
 /// The largest valid ρ∞.
-pub const MOST_RHO: f64 = GeneralizedAlpha::MOST_RHO;
+pub const MAX_RHO: f64 = GeneralizedAlpha::MAX_RHO;
 
 /// A scheme with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,7 +80,7 @@ impl Method {
         if newton.is_some() && method.newton().is_none() {
             return Err(MethodError::Newton { scheme: method.scheme_name() });
         }
-        if iterations > MOST_ITERATIONS {
+        if iterations > MAX_ITERATIONS {
             return Err(MethodError::Iterations { newton: iterations });
         }
         Ok(method)
@@ -353,7 +353,7 @@ impl Traits {
             name: S::NAME,
             damping: S::DAMPING,
             orders: [S::ORDER, S::ORDER_DAMPED],
-            most_vibration: S::MOST_VIBRATION,
+            most_vibration: S::MAX_VIBRATION,
             bears: S::bears,
             stability_limit: scheme.stability_limit(),
             evaluations: scheme.evaluations(),

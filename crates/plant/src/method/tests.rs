@@ -18,7 +18,7 @@ fn the_names_are_those_of_the_kernel() {
     );
     assert_eq!(
         DampingName::Explicit.summary(),
-        "Forces at the velocities of each evaluation: limit the step"
+        "Damper forces at the velocities of each evaluation: limits the step"
     );
 }
 

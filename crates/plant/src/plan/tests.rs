@@ -208,7 +208,7 @@ fn extreme_times_are_planned_or_refused_with_times_that_fit() {
         match planned {
             Ok(plan) => {
                 assert!(plan.steps >= 1 && plan.stride >= 1 && plan.step > 0.0, "{asked:?}");
-                assert!(plan.samples() <= MOST_SAMPLES, "{asked:?}");
+                assert!(plan.samples() <= MAX_SAMPLES, "{asked:?}");
             }
             // A second error may follow the first, but not the same one again.
             Err(PlanError::Multiple { steps, intervals, .. }) => {

@@ -1,7 +1,7 @@
 //! A run that failed is looked into: which step works, and what looking for one may cost.
 
 use dbd_plant::failure::Remedy;
-use dbd_plant::judge::{Judge, Trouble};
+use dbd_plant::monitor::{Monitor, RunFailure};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::{FailedRun, Method, plant};
 use dbd_scene::Scene;
@@ -29,17 +29,17 @@ fn failed(duration: f64) -> (FailedRun, Vec<(u64, u64)>) {
     let request = Request { step: StepRequest::Given(4e-3), duration, every: None };
     let run = plan(&request).unwrap();
     let mut plant = plant(&scene, &method, run.step).unwrap();
-    let mut judge = Judge::new(&scene, plant.as_ref());
-    let trouble: Trouble = loop {
-        match judge.judge(&plant.state()) {
+    let mut monitor = Monitor::new(&scene, plant.as_ref());
+    let run_failure: RunFailure = loop {
+        match monitor.monitor(&plant.state()) {
             Ok(_) => assert!(plant.advance(1).is_running()),
-            Err(trouble) => break trouble,
+            Err(run_failure) => break run_failure,
         }
     };
     let mut heard = Vec::new();
     let mut progress = |done, all| heard.push((done, all));
     let steps = plant.steps();
-    let failed = FailedRun::new(&scene, &method, &run, None, steps, trouble, &mut progress);
+    let failed = FailedRun::new(&scene, &method, &run, None, steps, run_failure, &mut progress);
     (failed, heard)
 }
 

@@ -133,12 +133,12 @@ fn what_is_wrong_is_said_with_what_would_be_right() {
         (blueprint("name = 3"), Settings::default(), "bad.toml:1:8: "),
         (blueprint(&text).with("body.cat.mass=1"), Settings::default(), "did you mean `cart`?"),
         (blueprint(&text), settings(|s| s.scheme = Some("euler".into())), "dbd, dbd-p1"),
-        (blueprint(&text), settings(|s| s.step = Some(f64::NAN)), "a step of NaN"),
+        (blueprint(&text), settings(|s| s.step = Some(f64::NAN)), "step NaNs is not representable"),
         (blueprint(&text), settings(|s| s.newton = Some(2)), "has no Newton iterations"),
         (
             blueprint(&text),
             settings(|s| (s.scheme, s.damping) = (Some("rk4".into()), Some("sweeps".into()))),
-            "no sweeps damping",
+            "does not support sweeps damping",
         ),
     ] {
         let error = Instance::new(blueprint, settings).err().unwrap().sentence();

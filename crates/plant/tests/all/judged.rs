@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use dbd_plant::judge::{Judge, OPENED, Trouble};
+use dbd_plant::monitor::{Monitor, OPENED, RunFailure};
 use dbd_plant::{Frequencies, Method, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
 use proptest::prelude::*;
@@ -15,17 +15,22 @@ fn scene(text: &str) -> Scene {
     Scene::parse(text, "s.toml").unwrap_or_else(|error| panic!("{error}: {}: {text}", error.help()))
 }
 
-fn judged(scene: &Scene, precision: PrecisionName, step: f64, steps: u64) -> Result<(), Trouble> {
+fn judged(
+    scene: &Scene,
+    precision: PrecisionName,
+    step: f64,
+    steps: u64,
+) -> Result<(), RunFailure> {
     let method = Method::new(SchemeName::Leapfrog, None, precision).unwrap();
     let mut plant = plant(scene, &method, step).unwrap();
-    let mut judge = Judge::new(scene, plant.as_ref());
-    judge.judge(&plant.state())?;
+    let mut monitor = Monitor::new(scene, plant.as_ref());
+    monitor.monitor(&plant.state())?;
     let stride = (steps / LOOKS).max(1);
     while plant.steps() < steps {
         if let dbd_kernel::Status::Failed(failure) = plant.advance(stride) {
-            return Err(Trouble::Step(failure.cause));
+            return Err(RunFailure::Step(failure.cause));
         }
-        judge.judge(&plant.state())?;
+        monitor.monitor(&plant.state())?;
     }
     Ok(())
 }
@@ -328,15 +333,15 @@ fn a_joint_opens_beyond_its_clearance() {
         );
         let scene = Scene::parse(&text, "loose.toml").unwrap();
         let mut plant = plant(&scene, &Method::default(), 1e-4).unwrap();
-        let mut judge = Judge::new(&scene, plant.as_ref());
+        let mut monitor = Monitor::new(&scene, plant.as_ref());
         let mut largest = 0.0_f64;
         for _ in 0..1000 {
             assert!(plant.advance(1).is_running());
-            let verdict = judge.judge(&plant.state());
-            largest =
-                largest.max(verdict.unwrap_or_else(|trouble| panic!("{trouble:?}")).extension);
+            let verdict = monitor.monitor(&plant.state());
+            largest = largest
+                .max(verdict.unwrap_or_else(|run_failure| panic!("{run_failure:?}")).extension);
         }
-        (judge.openings()[0], largest)
+        (monitor.openings()[0], largest)
     };
     let (stiff, largest) = opening(1e6);
     assert!((stiff.extension - (largest - 0.005)).abs() < 1e-15, "{stiff:?} {largest}");

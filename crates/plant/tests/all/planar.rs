@@ -3,7 +3,7 @@
 use dbd_kernel::plant::StateError;
 use dbd_kernel::readouts::Reading;
 use dbd_kernel::{BodyIndex, BodyState, F64, Vec3};
-use dbd_plant::judge::Judge;
+use dbd_plant::monitor::Monitor;
 use dbd_plant::{Method, OrientationName, PlantError, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
 
@@ -117,9 +117,10 @@ fn what_comes_out_is_the_worlds() {
 fn its_model_and_its_states_go_together() {
     let flat = scene(true);
     let mut own = plant(&flat, &Method::default(), 1e-4).unwrap();
-    let mut judge = Judge::new(&flat, own.as_ref());
+    let mut monitor = Monitor::new(&flat, own.as_ref());
     assert!(own.advance(3000).is_running());
-    let verdict = judge.judge(&own.state()).unwrap_or_else(|trouble| panic!("{trouble:?}"));
+    let verdict =
+        monitor.monitor(&own.state()).unwrap_or_else(|run_failure| panic!("{run_failure:?}"));
     assert_eq!(verdict.energy, own.energy());
     assert!(verdict.extension > 0.0 && verdict.extension < 1e-3, "{}", verdict.extension);
 }

@@ -127,9 +127,9 @@ fn what_cannot_be_stepped_is_refused() {
     let huge = Scene::parse(&huge, "huge.toml").unwrap();
     assert!(matches!(plant(&huge, &single, 1e-3).map(|_| ()), Err(PlantError::Input(_))));
     assert!(plant(&huge, &Method::default(), 1e-3).is_ok());
-    let loose = Method::new(SchemeName::Rk4, None, PrecisionName::F32Micromath).unwrap();
+    let approximate = Method::new(SchemeName::Rk4, None, PrecisionName::F32Micromath).unwrap();
     let built = cfg!(feature = "comparison");
-    assert_eq!(plant(&scene, &loose, 1e-3).is_ok(), built);
+    assert_eq!(plant(&scene, &approximate, 1e-3).is_ok(), built);
 }
 
 #[test]

@@ -40,7 +40,7 @@ impl Session {
     /// Transfers this plant's state to the other one.
     fn carried(&self, mut other: Instance) -> Result<Instance, (Box<Instance>, String)> {
         let no = |other: Instance, why: &str| Err((Box::new(other), why.to_owned()));
-        if self.trouble.is_some() {
+        if self.run_failure.is_some() {
             return no(other, "the previous run failed");
         }
         if let Some(why) = differs(self.instance.scene(), other.scene()) {

@@ -52,7 +52,7 @@ impl Session {
         let layout = self.layout();
         let state = self.instance.plant().state();
         // Only its extensions are needed, not its verdict.
-        let energy = match self.judge.judge(&state) {
+        let energy = match self.monitor.monitor(&state) {
             Ok(verdict) => verdict.energy,
             Err(_) => self.instance.plant().energy(),
         };
@@ -62,7 +62,7 @@ impl Session {
         frame.extend([
             self.instance.time(),
             state.step as f64,
-            f64::from(u8::from(self.trouble.is_some())),
+            f64::from(u8::from(self.run_failure.is_some())),
             energy.kinetic,
             energy.potential(),
             energy.total(),
@@ -79,7 +79,8 @@ impl Session {
         frame.extend(forces.springs.iter().map(|tension| f64::from(*tension)));
         let mut of_joints = Vec::new();
         self.loading.joints(&state, &mut of_joints);
-        let extensions = self.judge.extensions().iter().copied().chain(std::iter::repeat(f64::NAN));
+        let extensions =
+            self.monitor.extensions().iter().copied().chain(std::iter::repeat(f64::NAN));
         frame.extend(
             of_joints.iter().zip(extensions).flat_map(|(force, extension)| [*force, extension]),
         );

@@ -14,7 +14,7 @@ use crate::session::live::Session;
 /// \[1/s\] rate at which a mechanism follows the hand, in real time.
 const FOLLOWS: f64 = 8.0;
 /// \[1\] largest fraction of the body's distance and rate that a step may remove.
-const MOST_SHARE: f64 = 0.05;
+const MAX_SHARE: f64 = 0.05;
 /// \[1\] damping ratio.
 const RATIO: f64 = 0.7;
 
@@ -54,10 +54,10 @@ impl Session {
         let rate = FOLLOWS / speed;
         let step = plant.step_size();
         // Often enough for the whole mechanism; at every step for fast bodies.
-        let count = ((MOST_SHARE / (rate * step)) as u64).clamp(1, steps.min(64));
+        let count = ((MAX_SHARE / (rate * step)) as u64).clamp(1, steps.min(64));
         let time = count as f64 * step;
-        let stiffness = (whole * rate * rate).min(MOST_SHARE * body.mass / (time * time));
-        let damping = (2.0 * RATIO * rate * whole).min(MOST_SHARE * body.mass / time);
+        let stiffness = (whole * rate * rate).min(MAX_SHARE * body.mass / (time * time));
+        let damping = (2.0 * RATIO * rate * whole).min(MAX_SHARE * body.mass / time);
         let rotation = Quaternion::from_f64(held.orientation.to_f64()).rotation();
         let arm_b = Vec3::from_f64(point);
         let arm = rotation.to_world(arm_b);

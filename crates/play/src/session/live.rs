@@ -3,7 +3,7 @@
 use dbd_kernel::Status;
 use dbd_plant::failure::Remedy;
 use dbd_plant::instance::Instance;
-use dbd_plant::judge::{Judge, Trouble};
+use dbd_plant::monitor::{Monitor, RunFailure};
 use dbd_plant::plan::{Request, StepRequest, plan};
 use dbd_plant::{FailedRun, Plan};
 use dbd_report::loading::Loading;
@@ -15,7 +15,7 @@ use crate::session::asked::{Change, Grab};
 use crate::session::kept::Marks;
 
 /// Maximum length of a scene's text in bytes.
-pub const MOST_TEXT: usize = 10_000_000;
+pub const MAX_TEXT: usize = 10_000_000;
 
 /// A scene's plant and the state of its live view.
 pub struct Session {
@@ -23,12 +23,12 @@ pub struct Session {
     /// The scene's text, its file's name, settings and changes.
     pub(super) asked: Change,
     pub(super) plan: Plan,
-    pub(super) judge: Judge,
+    pub(super) monitor: Monitor,
     pub(super) loading: Loading,
     pub(super) mechanism: Mechanism,
     /// Whether anything outside the scene acted on the plant: its energy balance is then not meaningful.
     pub(super) disturbed: bool,
-    pub(super) trouble: Option<Trouble>,
+    pub(super) run_failure: Option<RunFailure>,
     pub(super) grab: Option<Grab>,
     /// \[J\] work of the hand.
     pub(super) work: f64,
@@ -47,10 +47,10 @@ impl Session {
     /// # Errors
     /// If the scene or the settings are invalid, with the messages of the command line.
     pub fn open(asked: Change) -> Result<Self, Refused> {
-        if asked.text.len() > MOST_TEXT {
+        if asked.text.len() > MAX_TEXT {
             return Err(Refused::new(
                 format!("the text of {} bytes is too long for the page", asked.text.len()),
-                format!("use at most {MOST_TEXT} bytes; host-sim run accepts more"),
+                format!("use at most {MAX_TEXT} bytes; host-sim run accepts more"),
             ));
         }
         let instance = asked.instance()?;
@@ -60,7 +60,7 @@ impl Session {
     pub(super) fn of(asked: Change, instance: Instance) -> Self {
         let (scene, plant) = (instance.scene(), instance.plant());
         let mechanism = Mechanism::of(scene);
-        let (judge, plan) = (Judge::new(scene, plant), planned(&instance));
+        let (monitor, plan) = (Monitor::new(scene, plant), planned(&instance));
         let loading = Loading::new(scene, &mechanism, plant.model().clone(), plant.step_size());
         let energy_at_start = plant.energy().total();
         let watched = (readouts(scene)..instance.outputs().len()).collect();
@@ -68,11 +68,11 @@ impl Session {
             instance,
             asked,
             plan,
-            judge,
+            monitor,
             loading,
             mechanism,
             disturbed: false,
-            trouble: None,
+            run_failure: None,
             grab: None,
             work: 0.0,
             energy_at_start,
@@ -92,14 +92,14 @@ impl Session {
     /// Whether a step failed; the plant then stops until [`Self::reset`], [`Self::rewind`] or a change.
     #[must_use]
     pub fn has_failed(&self) -> bool {
-        self.trouble.is_some()
+        self.run_failure.is_some()
     }
 
     /// Advances by the given number of steps, or up to a failing one; returns the number done.
     pub fn advance(&mut self, steps: u64) -> u64 {
         let start = self.instance.plant().steps();
         let end = start + steps;
-        while self.trouble.is_none() {
+        while self.run_failure.is_none() {
             let done = self.instance.plant().steps();
             if done == end {
                 break;
@@ -111,7 +111,7 @@ impl Session {
                 next = next.min(done + self.pull(end - done));
             }
             if let Status::Failed(failure) = self.instance.plant_mut().advance(next - done) {
-                self.trouble = Some(Trouble::Step(failure.cause));
+                self.run_failure = Some(RunFailure::Step(failure.cause));
             } else if next.is_multiple_of(stride) {
                 self.look();
             }
@@ -122,9 +122,9 @@ impl Session {
     /// Checks the state as `run` does.
     fn look(&mut self) {
         let state = self.instance.plant().state();
-        self.trouble = match self.judge.judge(&state) {
-            Err(Trouble::Growth { .. } | Trouble::Torn { .. }) if self.disturbed => None,
-            Err(trouble) => Some(trouble),
+        self.run_failure = match self.monitor.monitor(&state) {
+            Err(RunFailure::Growth { .. } | RunFailure::Torn { .. }) if self.disturbed => None,
+            Err(run_failure) => Some(run_failure),
             Ok(_) => None,
         };
     }
@@ -149,8 +149,8 @@ impl Session {
     /// Starts a new run from the present state.
     fn begin(&mut self) {
         let (scene, plant) = (self.instance.scene(), self.instance.plant());
-        self.judge = Judge::new(scene, plant);
-        (self.disturbed, self.trouble, self.grab, self.work) = (false, None, None, 0.0);
+        self.monitor = Monitor::new(scene, plant);
+        (self.disturbed, self.run_failure, self.grab, self.work) = (false, None, None, 0.0);
         self.energy_at_start = plant.energy().total();
         self.marks = Marks::default();
         self.inputs_set.clear();
@@ -176,15 +176,21 @@ impl Session {
     /// seconds; it is made only if nothing outside the scene acted on the plant.
     #[must_use]
     pub fn diagnose(&self) -> Option<(String, String)> {
-        let trouble = self.trouble?;
+        let run_failure = self.run_failure?;
         let (scene, plant) = (self.instance.scene(), self.instance.plant());
         let failed = plant.steps();
         let plan = Plan { steps: self.plan.steps.max(failed), ..self.plan };
         let run = match self.disturbed {
-            false => {
-                FailedRun::new(scene, plant.method(), &plan, None, failed, trouble, &mut |_, _| ())
-            }
-            true => FailedRun::untried(scene, &plan, failed, trouble),
+            false => FailedRun::new(
+                scene,
+                plant.method(),
+                &plan,
+                None,
+                failed,
+                run_failure,
+                &mut |_, _| (),
+            ),
+            true => FailedRun::untried(scene, &plan, failed, run_failure),
         };
         let advice = match run.remedy {
             Remedy::Unsought => {

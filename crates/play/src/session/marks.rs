@@ -7,9 +7,9 @@ use crate::session::kept::Mark;
 use crate::session::live::Session;
 
 /// Maximum number of marks; the oldest is dropped first.
-pub const MOST_MARKS: usize = 600;
+pub const MAX_MARKS: usize = 600;
 /// \[byte\] total size, at least two marks.
-const MOST_BYTES: usize = 64_000_000;
+const MAX_BYTES: usize = 64_000_000;
 
 impl Session {
     /// Saves the present state; returns the number of marks and \[s\] the times of the oldest and the newest. A failed
@@ -18,9 +18,9 @@ impl Session {
         if let Ok(snapshot) = self.instance.plant().snapshot() {
             let newest = self.marks.0.back().map(|mark| mark.time);
             let time = self.instance.time();
-            if newest != Some(time) && self.trouble.is_none() {
+            if newest != Some(time) && self.run_failure.is_none() {
                 let room =
-                    (MOST_BYTES / (snapshot.len() + self.asked.text.len())).clamp(2, MOST_MARKS);
+                    (MAX_BYTES / (snapshot.len() + self.asked.text.len())).clamp(2, MAX_MARKS);
                 while self.marks.0.len() >= room {
                     self.marks.0.pop_front();
                 }
@@ -61,7 +61,7 @@ impl Session {
         }
         self.instance.restore(&kept.snapshot)?;
         self.inputs_set.truncate(kept.inputs_set);
-        (self.disturbed, self.work, self.trouble, self.grab) =
+        (self.disturbed, self.work, self.run_failure, self.grab) =
             (kept.disturbed, kept.work, None, None);
         self.marks.0.truncate(mark + 1);
         Ok(())
@@ -85,7 +85,7 @@ impl Session {
         self.instance.restore(bytes)?;
         // Recorded inputs belong to the previous run.
         self.inputs_set.clear();
-        (self.disturbed, self.trouble, self.grab) = (true, None, None);
+        (self.disturbed, self.run_failure, self.grab) = (true, None, None);
         Ok(())
     }
 }

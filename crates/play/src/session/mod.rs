@@ -15,5 +15,5 @@ mod replay;
 
 pub use asked::{Change, Grab, Set};
 pub use frame::{Layout, STATUS};
-pub use live::{MOST_TEXT, Session};
+pub use live::{MAX_TEXT, Session};
 pub use opened::Opened;

@@ -14,7 +14,7 @@ use crate::session::frame::Layout;
 use crate::session::live::{Session, readouts};
 
 /// Maximum number of listed numbers of a scene; the others are only in the text.
-const MOST_NUMBERS: usize = 20_000;
+const MAX_NUMBERS: usize = 20_000;
 
 /// Content of a page in addition to its frames.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -164,9 +164,9 @@ impl Session {
             inputs: inputs.collect(),
             outputs: outputs.collect(),
             readouts: readouts(scene),
-            numbers: numbers.iter().skip(named).take(MOST_NUMBERS).map(number).collect(),
+            numbers: numbers.iter().skip(named).take(MAX_NUMBERS).map(number).collect(),
             parameters: numbers.iter().take(named).map(number).collect(),
-            numbers_left_out: numbers.len().saturating_sub(named + MOST_NUMBERS),
+            numbers_left_out: numbers.len().saturating_sub(named + MAX_NUMBERS),
             warnings: dbd_scene::warnings(scene).iter().map(ToString::to_string).collect(),
             limit: limit.is_finite().then_some(limit),
             command: self.command(method),

@@ -9,7 +9,7 @@ const ROUND: usize = 16;
 /// Rings of a ball from pole to pole.
 const RINGS: usize = 8;
 /// Of more points no hull is sought.
-const MOST_HULL: usize = 24;
+const MAX_HULL: usize = 24;
 
 type Vector = Vec3<f64>;
 
@@ -136,7 +136,7 @@ impl Solids {
         points.iter().for_each(|point| self.add_ball(*point, radius));
         let share = 1.0 / points.len().max(1) as f64;
         let middle = points.iter().fold(Vec3::ZERO, |sum, point| sum + *point * share);
-        let faces = if points.len() > MOST_HULL { Vec::new() } else { faces(points) };
+        let faces = if points.len() > MAX_HULL { Vec::new() } else { faces(points) };
         if faces.is_empty() {
             points.iter().for_each(|point| self.add_rod(middle, *point, radius));
         }

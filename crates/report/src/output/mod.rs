@@ -7,11 +7,11 @@
 //! - [`page`]: an HTML page.
 //! - [`svg`]: elements of drawings.
 //! - [`dark`]: colours on a dark screen.
-//! - [`label_spots`]: placement of names in a drawing.
+//! - [`label_positions`]: placement of names in a drawing.
 
 pub mod dark;
 pub mod file;
-pub mod label_spots;
+pub mod label_positions;
 mod lock;
 pub mod markup;
 pub mod page;

@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use crate::output::label_spots::{LabelSpots, Rectangle};
+use crate::output::label_positions::{LabelPositions, Rectangle};
 
 use crate::picture::bodies::{Drawn, body};
 use crate::picture::faces::{Face, solids};
@@ -207,12 +207,12 @@ impl Drawing<'_> {
     fn names(&self, text: &mut String, bodies: &[Option<Drawn>], room: &Rectangle) -> usize {
         let mechanism = self.mechanism;
         let at = |place| self.frame.at(mechanism.place(place));
-        let mut spots = LabelSpots::new(*room);
+        let mut positions = LabelPositions::new(*room);
         let mut labels = Vec::new();
         for (row, drawn) in bodies.iter().enumerate() {
             let Some(drawn) = drawn else { continue };
-            drawn.strokes.iter().for_each(|[from, to]| spots.stroke(*from, *to));
-            spots.mark(drawn.centre);
+            drawn.strokes.iter().for_each(|[from, to]| positions.stroke(*from, *to));
+            positions.mark(drawn.centre);
             labels.push(Label {
                 name: mechanism.bodies[row].name.clone(),
                 anchor: drawn.anchor,
@@ -231,7 +231,7 @@ impl Drawing<'_> {
                 ForceKind::Torque => from,
                 ForceKind::Shift => (from.0, from.1 + 28.0),
             };
-            spots.stroke(from, tip);
+            positions.stroke(from, tip);
             if let Some(name) = force.input.as_deref().filter(|name| !drives.contains(name)) {
                 drives.push(name);
                 labels.push(Label {
@@ -250,16 +250,16 @@ impl Drawing<'_> {
         };
         for joint in &mechanism.joints {
             let at = at(&joint.places[0]);
-            spots.mark(at);
+            positions.mark(at);
             if joint.places.iter().any(|place| place.body.is_none()) {
                 let (x, y) = (at.0 - 14.0, at.1 + 6.0);
-                spots.stroke((x, y + 12.0), (x + 28.0, y + 12.0));
+                positions.stroke((x, y + 12.0), (x + 28.0, y + 12.0));
             }
             labels.push(quiet(&joint.name, at));
         }
         for spring in &mechanism.springs {
             let [from, to] = [at(&spring.ends[0]), at(&spring.ends[1])];
-            spots.stroke(from, to);
+            positions.stroke(from, to);
             if let Some(name) = &spring.name {
                 let class = if spring.driven { "drive" } else { "quiet" };
                 labels.push(Label { class: class.into(), ..quiet(name, between(from, to, 0.5)) });
@@ -267,12 +267,12 @@ impl Drawing<'_> {
         }
         for guide in &mechanism.guides {
             let point = at(&guide.point);
-            spots.mark(point);
+            positions.mark(point);
             labels.extend(guide.name.iter().map(|name| quiet(name, point)));
         }
         for torsion in &mechanism.torsions {
             let (x, y) = at(&torsion.at);
-            spots.stroke((x - 14.0, y), (x + 14.0, y));
+            positions.stroke((x - 14.0, y), (x + 14.0, y));
             labels.extend(torsion.name.iter().map(|name| quiet(name, (x, y))));
         }
         for interaction in &mechanism.interactions {
@@ -280,10 +280,10 @@ impl Drawing<'_> {
                 Some([_, end]) => at(end),
                 None => at(&interaction.at),
             };
-            spots.mark(point);
+            positions.mark(point);
             labels.extend(interaction.name.iter().map(|name| quiet(name, point)));
         }
-        names::write(text, &mut spots, &labels, self.frame.centre)
+        names::write(text, &mut positions, &labels, self.frame.centre)
     }
 }
 

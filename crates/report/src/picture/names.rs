@@ -2,7 +2,7 @@
 //!
 //! `(anchors, drawn parts) => labels without overlap, number of omitted ones`.
 
-use crate::output::label_spots::{LabelSpots, Rectangle};
+use crate::output::label_positions::{LabelPositions, Rectangle};
 
 use crate::picture::ink::{Point, line, width, words};
 use crate::picture::style::LETTERS;
@@ -10,7 +10,7 @@ use crate::picture::style::LETTERS;
 /// Letters of a label; the rest of a name is left out.
 const LONGEST: usize = 22;
 /// Labels that a view has at most.
-const MOST: usize = 48;
+const MAX: usize = 48;
 
 /// A name that is to be written.
 pub(crate) struct Label {
@@ -41,18 +41,18 @@ pub(crate) fn short(name: &str) -> String {
 /// found no room.
 pub(crate) fn write(
     text: &mut String,
-    spots: &mut LabelSpots,
+    positions: &mut LabelPositions,
     labels: &[Label],
     middle: Point,
 ) -> usize {
-    let mut left_out = labels.len().saturating_sub(MOST);
-    for label in labels.iter().take(MOST) {
+    let mut left_out = labels.len().saturating_sub(MAX);
+    for label in labels.iter().take(MAX) {
         let name = short(&label.name);
         let size = (width(&name, LETTERS) + 2.0, LETTERS + 3.0);
         let (x, y) = (label.anchor.0 - middle.0, label.anchor.1 - middle.1);
         let away = libm::hypot(x, y);
         let wish = if away > 1.0 { (x / away, y / away) } else { (0.0, -1.0) };
-        let Some(found) = spots.find(label.anchor, size, wish, label.worst) else {
+        let Some(found) = positions.find(label.anchor, size, wish, label.worst) else {
             left_out += 1;
             continue;
         };

@@ -3,7 +3,7 @@
 //! `mechanism => SVG`. Every number is rounded to a tenth of a pixel and every order is the
 //! scene's, so the same scene gives the same text.
 
-use crate::output::label_spots::Rectangle;
+use crate::output::label_positions::Rectangle;
 use crate::output::markup::escape;
 use dbd_kernel::Vec3;
 

@@ -122,7 +122,7 @@ fn turned(front: &View, azimuth: f64) -> View {
 /// The oblique view in which joints hide each other least.
 fn oblique(mechanism: &Mechanism, front: &View) -> View {
     /// Of more joints no angle shows each.
-    const MOST: usize = 150;
+    const MAX: usize = 150;
     /// Fractions of the view's size: larger distances are sufficient.
     const APART: f64 = 0.08;
     let usual = turned(front, AZIMUTHS[0]);
@@ -133,7 +133,7 @@ fn oblique(mechanism: &Mechanism, front: &View) -> View {
             places.push(place);
         }
     }
-    if places.len() < 2 || places.len() > MOST {
+    if places.len() < 2 || places.len() > MAX {
         return usual;
     }
     let reach = reach(mechanism);

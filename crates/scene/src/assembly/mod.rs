@@ -117,8 +117,8 @@ pub(crate) struct Points<'p> {
 impl Points<'_> {
     /// Endpoints per spring triple.
     fn arms(&self) -> usize {
-        let stars = if self.shared { 1 } else { self.centres.len().max(1) };
-        self.tips.len() / stars
+        let triples = if self.shared { 1 } else { self.centres.len().max(1) };
+        self.tips.len() / triples
     }
 
     /// Elements: one per spring triple and leg.
@@ -290,10 +290,10 @@ impl Assembly {
         let elements = points.elements();
         let rows = law.damper_rows(elements, false);
         let damper = self.add_dampers(spring.damping, elements, rows)?;
-        let (stars, arms) = (points.centres.len() as u8, points.arms() as u8);
+        let (triples, arms) = (points.centres.len() as u8, points.arms() as u8);
         let (a, b, shared) = (pair.a, pair.b, points.shared);
         let clearance = self.add_clearance(spring.clearance)?;
-        let group = Group { law, a, b, stars, arms, shared, point, element, damper, clearance };
+        let group = Group { law, a, b, triples, arms, shared, point, element, damper, clearance };
         self.model.groups.push(group);
         self.model.points.extend(all().map(|p| F64::local_from_f64(p.to_f64())));
         Ok(())

@@ -55,8 +55,8 @@ pub(crate) fn mobility(closures: &[Closure], poses: &[Pose], scale: f64) -> Mobi
         // With independent constraints the rank is exact (implicit function theorem).
         all.freedoms += if redundant { free.nearby(&system, poses) } else { free.count() };
     }
-    let loose = 6 * (poses.len() - joined);
-    Mobility { freedoms: all.freedoms + loose, first_order: all.first_order + loose }
+    let approximate = 6 * (poses.len() - joined);
+    Mobility { freedoms: all.freedoms + approximate, first_order: all.first_order + approximate }
 }
 
 /// Bodies that joints fix to first order, excluding those that may not move.

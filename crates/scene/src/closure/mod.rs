@@ -48,7 +48,7 @@ pub(crate) struct Outcome {
 }
 
 /// Size limit of an island: the time grows with the third power.
-pub(crate) const MOST_BODIES: usize = 200;
+pub(crate) const MAX_BODIES: usize = 200;
 
 /// Number of movable bodies of the largest island.
 pub(crate) fn largest_island(closures: &[Closure], movable: &[bool]) -> usize {

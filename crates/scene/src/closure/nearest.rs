@@ -13,7 +13,7 @@ use crate::closure::pose::Pose;
 const FREE_SHARE: f64 = 1e-6;
 
 /// Maximum number of steps, and of halvings per step.
-const MOST: [usize; 2] = [20, 6];
+const MAX: [usize; 2] = [20, 6];
 
 /// Moves closed poses to the closed poses nearest to the given ones.
 pub(super) fn approach(
@@ -23,7 +23,7 @@ pub(super) fn approach(
     budget: &mut Budget,
 ) {
     let mut way = system.since(poses, given);
-    for _ in 0..MOST[0] {
+    for _ in 0..MAX[0] {
         let distance = dot(&way, &way);
         if !budget.take() {
             return;
@@ -34,7 +34,7 @@ pub(super) fn approach(
             return;
         }
         let mut share = 1.0;
-        let mut halvings = 0..MOST[1];
+        let mut halvings = 0..MAX[1];
         let nearer = halvings.find_map(|_| {
             let back: Vec<f64> = free.iter().map(|x| -share * x).collect();
             share *= 0.5;

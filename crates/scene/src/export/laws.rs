@@ -2,7 +2,7 @@
 //!
 //! `(laws, precision) => type of the list, its rows`. Every number is its bit pattern.
 
-use dbd_kernel::laws::{Field, FieldSink, MOST_TERMS, Term, Way};
+use dbd_kernel::laws::{CoordinateKind, Field, FieldSink, MAX_TERMS, Term};
 use dbd_kernel::space::{Linear as _, Space, Turn as _};
 use dbd_kernel::{BodyIndex, F64, Geometry, Real as _};
 
@@ -96,15 +96,15 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
         let count = knots.len();
         self.push(field, &format!("dbd_kernel::laws::Curve {{ knots: [{all}], count: {count} }}"));
     }
-    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MOST_TERMS]) {
+    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MAX_TERMS]) {
         let term = |term: &Option<Term>| {
             let Some(Term { bodies, factor, way }) = term else { return "None".to_owned() };
             let [a, b] = bodies.map(index);
             let way = match way {
-                Way::Turn(axis) => {
+                CoordinateKind::Turn(axis) => {
                     format!("Turn({})", hinge::<P>(axis.axis.to_f64(), axis.reference.to_f64()))
                 }
-                Way::Travel { points, axis } => {
+                CoordinateKind::Travel { points, axis } => {
                     let points = locals::<P>(points.map(|point| F64::local_to_f64(&point)));
                     format!("Travel {{ points: {points}, axis: {} }}", vector::<P>(axis.to_f64()))
                 }
@@ -112,7 +112,7 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
             let factor = number::<P>(*factor);
             format!(
                 "Some(dbd_kernel::laws::Term {{ bodies: [{a}, {b}], factor: {factor}, \
-                 way: dbd_kernel::laws::Way::{way} }})"
+                 way: dbd_kernel::laws::CoordinateKind::{way} }})"
             )
         };
         self.push(field, &format!("[{}]", terms.each_ref().map(term).join(", ")));

@@ -20,7 +20,7 @@ pub use names::{constant_name, constant_names, type_name};
 pub use number::SourceNumber;
 pub use preamble::preamble;
 pub use precision::ExportPrecision;
-pub use scheme::{ExportScheme, MOST_ITERATIONS, SchemeError};
+pub use scheme::{ExportScheme, MAX_ITERATIONS, SchemeError};
 
 use dbd_kernel::geometry::Float;
 use dbd_kernel::planar::Planar;

@@ -108,18 +108,18 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
 /// Source of the model with the elimination order of a matrix: a type alias `FourBarPlannedF32` and a static
 /// `FOUR_BAR_PLANNED_F32`.
 pub(super) fn plan<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
-    let Elimination { order, pairs, targets, homes } = exact.clone().planned().plan;
+    let Elimination { order, pairs, targets, slots } = exact.clone().planned().plan;
     let (ty, name) = (type_name(&scene.name), constant_name(&scene.name));
     let (suffix, capitals) = (P::SUFFIX, P::SUFFIX.to_uppercase());
     let planned = format!("{ty}Planned{suffix}");
-    let counts = [order.len(), pairs.len(), targets.len(), homes.len()].map(|n| n.to_string());
+    let counts = [order.len(), pairs.len(), targets.len(), slots.len()].map(|n| n.to_string());
     format!(
         "/// The scene {quoted} with the plan of a matrix.\n{UNUSED}\
          pub type {planned} = dbd_kernel::model::Planned<&'static {ty}{suffix}, {counts}>;\n\
          /// The scene {quoted} with the plan of a matrix.\n{UNUSED}\
          pub static {name}_PLANNED_{capitals}: {planned} = dbd_kernel::model::Planned {{\n    \
              model: &{name}_{capitals},\n    order: {order:?},\n    pairs: {pairs:?},\n    \
-             targets: {targets:?},\n    homes: {homes:?},\n}};\n",
+             targets: {targets:?},\n    slots: {slots:?},\n}};\n",
         quoted = quoted(&scene.name),
         counts = counts.join(", "),
     )

@@ -61,14 +61,14 @@ pub(super) fn state<P: SourceGeometry>(state: &BodyState<P>) -> String {
 }
 
 pub(super) fn group(group: &Group) -> String {
-    let Group { law, a, b, stars, arms, shared, point, element, damper: coefficients, clearance } =
+    let Group { law, a, b, triples, arms, shared, point, element, damper: coefficients, clearance } =
         group;
     let clearance = match clearance.row() {
         Some(row) => format!("ClearanceIndex({row})"),
         None => "ClearanceIndex::NONE".into(),
     };
     format!(
-        "Group {{ law: Law::{law:?}, a: {}, b: {}, stars: {stars}, arms: {arms}, \
+        "Group {{ law: Law::{law:?}, a: {}, b: {}, triples: {triples}, arms: {arms}, \
          shared: {shared}, point: {point}, element: {element}, damper: {}, clearance: {clearance} }}",
         index(*a),
         index(*b),

@@ -3,7 +3,7 @@
 //! `(name, Newton iterations, damping) => type, value`. Names are the kernel's own.
 
 use dbd_kernel::damping::Damping;
-use dbd_kernel::keep::Keep as _;
+use dbd_kernel::keep::Storage as _;
 use dbd_kernel::real::Constant;
 use dbd_kernel::schemes::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, GeneralizedAlpha, GeneralizedAlpha3, JointWise,
@@ -16,7 +16,7 @@ use crate::default_step::Bears;
 use crate::nearest::nearest;
 
 /// Maximum number of Newton iterations: more only change the stable step.
-pub const MOST_ITERATIONS: u32 = 8;
+pub const MAX_ITERATIONS: u32 = 8;
 
 /// All names, for messages.
 const NAMES: [&str; 10] = [
@@ -83,10 +83,10 @@ impl ExportScheme {
             return refuse(format!("unknown damping \"{word}\""), help);
         }
         let iterations = newton.unwrap_or(0);
-        if iterations > MOST_ITERATIONS {
+        if iterations > MAX_ITERATIONS {
             let message =
-                format!("{iterations} Newton iterations exceed the maximum of {MOST_ITERATIONS}");
-            return refuse(message, format!("use at most {MOST_ITERATIONS}; more have no benefit"));
+                format!("{iterations} Newton iterations exceed the maximum of {MAX_ITERATIONS}");
+            return refuse(message, format!("use at most {MAX_ITERATIONS}; more have no benefit"));
         }
         let wrapper = match way {
             Some(Damping::Explicit) => Some("Explicit"),
@@ -187,8 +187,8 @@ impl ExportScheme {
             name: S::NAME,
             damping: S::DAMPING,
             stability_limit: scheme.stability_limit(),
-            most_vibration: S::MOST_VIBRATION,
-            has_matrix: S::Keeps::MATRIX,
+            most_vibration: S::MAX_VIBRATION,
+            has_matrix: S::Storage::MATRIX,
             path: within(path),
             value: within(value),
         }

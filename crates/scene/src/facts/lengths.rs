@@ -46,9 +46,9 @@ pub(super) fn groups(scene: &Scene) -> Vec<GroupFacts> {
 
 /// The points of element `i` of a group in the axes of their bodies.
 pub(super) fn points(scene: &Scene, group: &Group, i: usize) -> [Vec3<f64>; 2] {
-    let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
+    let (triples, arms) = (usize::from(group.triples), usize::from(group.arms));
     let points = &scene.model.points[usize::from(group.point)..];
-    [points[i / arms], points[stars + if group.shared { i % arms } else { i }]]
+    [points[i / arms], points[triples + if group.shared { i % arms } else { i }]]
 }
 
 /// The part of the displacement between the points of element `i` along which it acts, world axes: for a point on a

@@ -20,7 +20,7 @@ use crate::parts::Parts;
 use crate::scene::Scene;
 
 /// Larger sets of connected bodies are not examined: the time grows with the third power.
-pub(super) const MOST_BODIES: usize = 60;
+pub(super) const MAX_BODIES: usize = 60;
 
 /// A joint that is ten times softer than the stiffest is a mount: it is meant to deflect, like the rubber bushing of
 /// a suspension arm, and locks nothing.
@@ -45,7 +45,7 @@ pub(super) fn held(scene: &Scene) -> Option<Held> {
         |holds: &[Hold]| holds.iter().map(|hold| hold.closure.clone()).collect::<Vec<_>>();
     let all = closures(&holds);
     let movable = vec![true; poses.len()];
-    if closure::largest_island(&all, &movable) > MOST_BODIES {
+    if closure::largest_island(&all, &movable) > MAX_BODIES {
         return None;
     }
     let scale = closure::arm(&all, &movable);

@@ -23,7 +23,7 @@ pub(crate) fn axis_w(scene: &Scene, group: usize) -> Option<Vec3<f64>> {
         model.lines.get(group.element as usize)?.direction
     } else if group.law == Law::Revolute {
         model.revolutes.get(group.element as usize)?.levers[0]
-    } else if group.shared && group.stars == 2 {
+    } else if group.shared && group.triples == 2 {
         let first = group.point as usize;
         *model.points.get(first + 1)? - *model.points.get(first)?
     } else {

@@ -1,7 +1,7 @@
 //! Reads the constants of a law from its table.
 
 use dbd_kernel::attitude::Attitude as _;
-use dbd_kernel::laws::{Field, FieldSource, MOST_TERMS, Term};
+use dbd_kernel::laws::{Field, FieldSource, MAX_TERMS, Term};
 use dbd_kernel::{Quaternion, Vec3};
 
 use crate::assembly::Assembly;
@@ -26,7 +26,7 @@ pub(super) enum Of<'a> {
     /// A raw TSDA or a torsion spring: points, axis (world).
     Spring([[f64; 3]; 2], Vec3<f64>),
     /// A coupling: terms and constants.
-    Coupling(Box<[Option<Term>; MOST_TERMS]>, Constants),
+    Coupling(Box<[Option<Term>; MAX_TERMS]>, Constants),
 }
 
 impl Of<'_> {
@@ -181,7 +181,7 @@ impl FieldSource for Reading<'_, '_> {
         Some(knots.len())
     }
 
-    fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MOST_TERMS]> {
+    fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MAX_TERMS]> {
         if let Of::Coupling(terms, _) = &self.of { Some(**terms) } else { None }
     }
 }

@@ -3,7 +3,7 @@
 //! `(table, joints) => terms and constants of the law`. The sum has the unit of its first coordinate.
 
 use dbd_kernel::attitude::Attitude as _;
-use dbd_kernel::laws::{MOST_TERMS, Quantity, Term, Way};
+use dbd_kernel::laws::{CoordinateKind, MAX_TERMS, Quantity, Term};
 use dbd_kernel::{Quaternion, Vec3};
 
 use crate::assembly::Assembly;
@@ -31,7 +31,7 @@ pub(super) struct Coupled<'j> {
     pub(super) pair: &'j Pair,
     /// The names of its joints.
     pub(super) joints: Vec<&'j str>,
-    pub(super) terms: [Option<Term>; MOST_TERMS],
+    pub(super) terms: [Option<Term>; MAX_TERMS],
     pub(super) constants: Constants,
     /// Its quantities if they differ from those of the law.
     pub(super) quantities: Option<&'static [Quantity]>,
@@ -64,7 +64,7 @@ impl<'j> Coupled<'j> {
             Some(_) => constants.add("pulls", 0.0),
             None => {}
         }
-        let mut terms = [None; MOST_TERMS];
+        let mut terms = [None; MAX_TERMS];
         for (term, read) in terms.iter_mut().zip(&read) {
             *term = Some(read.term(assembly));
         }
@@ -94,9 +94,12 @@ impl Read<'_> {
         let way = if turns {
             let orientation = |body| assembly.state(body).map(|state| &state.orientation);
             let reference = Quaternion::relative(orientation(a), orientation(b)).conjugate();
-            Way::Turn(dbd_kernel::laws::Hinge { axis, reference })
+            CoordinateKind::Turn(dbd_kernel::laws::Hinge { axis, reference })
         } else {
-            Way::Travel { points: bodies.map(|body| assembly.point_in(body, place.at_w)), axis }
+            CoordinateKind::Travel {
+                points: bodies.map(|body| assembly.point_in(body, place.at_w)),
+                axis,
+            }
         };
         Term { bodies, factor, way }
     }
@@ -117,7 +120,7 @@ impl<'j> Kind for Of<'j, '_> {
 
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
         let entries = value.array(&self.expected())?;
-        if !(1..=MOST_TERMS).contains(&entries.len()) {
+        if !(1..=MAX_TERMS).contains(&entries.len()) {
             let problem = format!("has {} coordinates", entries.len());
             return Err(value.refuse(&problem, &self.expected()));
         }

@@ -6,7 +6,7 @@ use dbd_kernel::{BodyState, F64, Vec3};
 
 use crate::assembly::{Assembly, WORLD};
 use crate::between::BodyName;
-use crate::closure::{self, Closure, MOST_BODIES, Opening, Outcome, Settings, Turn};
+use crate::closure::{self, Closure, MAX_BODIES, Opening, Outcome, Settings, Turn};
 use crate::error::SceneError;
 use crate::joints::rates::{self, Joints};
 use crate::joints::site::{Site, poses, shown};
@@ -102,10 +102,10 @@ pub(crate) fn read(
         None => closure::arm(&closures, &movable),
     };
     let largest = closure::largest_island(&closures, &movable);
-    if largest > MOST_BODIES {
+    if largest > MAX_BODIES {
         let problem = format!("has to move {largest} connected bodies");
         let help = format!(
-            "at most {MOST_BODIES} can be assembled at once: separate them with `fixed`, or give all poses \
+            "at most {MAX_BODIES} can be assembled at once: separate them with `fixed`, or give all poses \
              and remove [assemble]"
         );
         return Err(value.refuse_with(&problem, help));

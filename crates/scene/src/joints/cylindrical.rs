@@ -70,7 +70,7 @@ mod tests {
         assert!(joint.assembly_error < 1e-15);
         let model = &scene.model;
         let group = model.groups[0];
-        assert_eq!((group.stars, group.arms, group.shared), (2, 2, false));
+        assert_eq!((group.triples, group.arms, group.shared), (2, 2, false));
         // The points belong to the world; the reference is x, so axis × reference is −y.
         for (point, expected) in model.points[2..].iter().zip([
             [1.25, 2.0, 4.0],

@@ -65,7 +65,7 @@ mod tests {
         assert!(joint.assembly_error < 1e-15);
         let model = &scene.model;
         let group = model.groups[0];
-        assert_eq!((group.stars, group.arms, group.shared), (3, 3, false));
+        assert_eq!((group.triples, group.arms, group.shared), (3, 3, false));
         // The reference is x, so axis × reference is −z.
         let places = [[1.0, 1.5, 3.0], [1.0, 2.5, 3.0], [1.5, 2.0, 3.0]].map(Vec3::from_f64);
         let arms = [[0.25, 0.0, 0.0], [0.0, 0.0, -0.25], [0.0, 0.25, 0.0]].map(Vec3::from_f64);

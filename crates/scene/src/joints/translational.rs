@@ -83,7 +83,7 @@ mod tests {
         assert!(joint.assembly_error < 1e-15 && joint.spider.is_none());
         let model = &scene.model;
         let group = model.groups[0];
-        assert_eq!((group.stars, group.arms, group.shared), (4, 2, false));
+        assert_eq!((group.triples, group.arms, group.shared), (4, 2, false));
         let state = &model.initial[1];
         let world =
             |point: &Vec3<f64>| state.position + state.orientation.rotation().to_world(*point);

@@ -4,7 +4,7 @@
 //! fixed seed: a failure is the same on every machine.
 
 use dbd_kernel::attitude::Attitude as _;
-use dbd_kernel::laws::{Instant, Interaction, Law, Record, Seen};
+use dbd_kernel::laws::{ForcePair, Instant, Interaction, Law, Seen};
 use dbd_kernel::words::Words as _;
 use dbd_kernel::{BodyState, F64, Geometry as _, Quaternion, Vec3};
 
@@ -80,10 +80,10 @@ fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
     if words(&memory) != once {
         return Err(format!("settling is not idempotent: {once:?}, {:?}", words(&memory)));
     }
-    let Some(record) = law.record(&seen, &memory) else { return Ok(false) };
-    let forces = generalised(&record);
+    let Some(force_pair) = law.force_pair(&seen, &memory) else { return Ok(false) };
+    let forces = generalised(&force_pair);
     let size = forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
-    momentum(state, &record)?;
+    momentum(state, &force_pair)?;
     gradient(law, state, &memory, &forces, size)?;
     tangent(law, state, &memory, &seen)?;
     let mut acts = size > 0.0;
@@ -108,11 +108,11 @@ fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
 }
 
 /// The forces conserve angular momentum.
-fn momentum(state: &State, record: &Record<f64>) -> Result<(), String> {
-    let size = generalised(record).iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+fn momentum(state: &State, force_pair: &ForcePair<f64>) -> Result<(), String> {
+    let size = generalised(force_pair).iter().fold(0.0, |most: f64, force| most.max(force.abs()));
     let whole =
-        |body: &BodyState<F64>, torque: Vec3<f64>| body.position.cross(record.force) + torque;
-    let left = whole(&state[0], record.torque_a) - whole(&state[1], record.torque_b);
+        |body: &BodyState<F64>, torque: Vec3<f64>| body.position.cross(force_pair.force) + torque;
+    let left = whole(&state[0], force_pair.torque_a) - whole(&state[1], force_pair.torque_b);
     let lever = state.iter().fold(1.0, |most: f64, body| most.max(length(body.position)));
     if length(left) > 1e-9 * size * lever {
         return Err(format!("angular momentum is not conserved: {left:?} N·m of {size} N"));
@@ -161,7 +161,9 @@ fn tangent<L: Law>(
 ) -> Result<(), String> {
     let forces = |way: &Twelve, by: f64| {
         let moved = moved(state, way, by);
-        look(law, &moved, |seen| law.record(seen, memory).map(|record| generalised(&record)))
+        look(law, &moved, |seen| {
+            law.force_pair(seen, memory).map(|force_pair| generalised(&force_pair))
+        })
     };
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
     for body in 0..2 {
@@ -216,8 +218,8 @@ fn frames(state: &State) -> [<F64 as dbd_kernel::Geometry>::Frame; 2] {
 }
 
 /// Forces and torques on A and on B, world axes.
-fn generalised(record: &Record<f64>) -> Twelve {
-    let parts = [record.force, record.torque_a, -record.force, -record.torque_b];
+fn generalised(force_pair: &ForcePair<f64>) -> Twelve {
+    let parts = [force_pair.force, force_pair.torque_a, -force_pair.force, -force_pair.torque_b];
     let mut all = [0.0; 12];
     for (three, part) in all.chunks_mut(3).zip(parts) {
         three.copy_from_slice(&part.to_f64());

@@ -58,7 +58,9 @@ mod tests {
     mod my_laws {
         use dbd_kernel::Geometry;
         use dbd_kernel::Real as _;
-        use dbd_kernel::laws::{Damper, Direction, Interaction, Nothing, Record, Seen, Springs};
+        use dbd_kernel::laws::{
+            Damper, Direction, ForcePair, Interaction, NoStorage, Seen, Springs,
+        };
 
         dbd_kernel::law! {
             /// A damper along the first body's normal.
@@ -82,19 +84,24 @@ mod tests {
         }
 
         impl<P: Geometry> Interaction<P> for Brush<P> {
-            type State = Nothing;
+            type State = NoStorage;
             type Dampers = [(); 1];
 
-            fn record(&self, seen: &Seen<'_, P>, _: &Nothing) -> Option<Record<P::Space>> {
+            fn force_pair(&self, seen: &Seen<'_, P>, _: &NoStorage) -> Option<ForcePair<P::Space>> {
                 Some(seen.pull(&self.direction(seen), P::Real::ZERO))
             }
-            fn energy(&self, _: &Seen<'_, P>, _: &Nothing) -> P::Real {
+            fn energy(&self, _: &Seen<'_, P>, _: &NoStorage) -> P::Real {
                 P::Real::ZERO
             }
-            fn tangent(&self, _: &Seen<'_, P>, _: &Nothing, _: Springs<'_, P>) -> [P::Real; 2] {
+            fn tangent(&self, _: &Seen<'_, P>, _: &NoStorage, _: Springs<'_, P>) -> [P::Real; 2] {
                 [P::Real::ZERO; 2]
             }
-            fn dampers(&self, seen: &Seen<'_, P>, _: &Nothing, visit: &mut impl FnMut(Damper<P>)) {
+            fn dampers(
+                &self,
+                seen: &Seen<'_, P>,
+                _: &NoStorage,
+                visit: &mut impl FnMut(Damper<P>),
+            ) {
                 visit(Damper::new(self.damping, self.direction(seen)));
             }
         }

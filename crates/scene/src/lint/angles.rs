@@ -3,7 +3,7 @@
 use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
-pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
     for written in &scene.written_angles {
         let angle = written.angle;
         warnings.push(Warning {

@@ -21,7 +21,7 @@ const NEEDLE: f64 = 1e-6;
 /// Largest ratio of masses: the lightest body limits the step, the heaviest determines the motion.
 const MASS_RATIO: f64 = 1e6;
 
-pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let farthest = farthest_points(scene);
     let interactions = interactions(scene);
     let acts_on = |info: &&InteractionInfo, row: usize| info.bodies.iter().any(|b| b.row() == row);
@@ -81,7 +81,7 @@ fn farthest_points(scene: &Scene) -> Vec<Option<f64>> {
     let mut farthest = vec![None; scene.model.bodies.len()];
     for group in &scene.model.groups {
         let first = usize::from(group.point);
-        let centres = first + usize::from(group.stars);
+        let centres = first + usize::from(group.triples);
         for (body, points) in
             [(group.a, first..centres), (group.b, centres..first + group.points())]
         {

@@ -9,7 +9,7 @@ use crate::scene::Scene;
 /// \[m/s\] Velocities given with three digits separate a joint more slowly.
 const STRETCHING_RATE: f64 = 1e-3;
 
-pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
     let groups = facts::groups(scene);
     for (number, joint) in scene.joints.iter().enumerate() {
         let mut warn = |severity, text: &str| {

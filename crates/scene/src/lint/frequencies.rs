@@ -13,7 +13,7 @@ const FAR_ABOVE: f64 = 20.0;
 /// Fewest joints for a meaningful median.
 const FEWEST: usize = 3;
 
-pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let (Some(fastest), Some(median)) = (facts.fastest(), facts.median_frequency()) else { return };
     if facts.joints.len() < FEWEST || fastest.frequency < FAR_ABOVE * median {
         return;

@@ -15,7 +15,7 @@ const FAR: f64 = 100.0;
 /// Fewest steps per period.
 const COARSE: f64 = 10.0;
 
-pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     undriven(scene, facts, warnings);
     sources(scene, warnings);
     for (row, info) in scene.inputs.iter().enumerate().filter(|(_, info)| info.table) {

@@ -4,7 +4,7 @@ use crate::interactions::interactions_at_start;
 use crate::lint::warning::{Severity, Warning, short};
 use crate::scene::Scene;
 
-pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
     // A scene in equilibrium may rest on its stops.
     if scene.settled.is_some() {
         return;

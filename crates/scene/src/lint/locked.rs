@@ -7,7 +7,7 @@ use crate::scene::Scene;
 /// Most other bodies listed in a warning.
 const NAMED: usize = 4;
 
-pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     for joints in &facts.jammed {
         let [first, .., last] = joints[..] else { continue };
         let [first, last] = [first, last].map(|row| (row, &scene.joints[row]));

@@ -34,17 +34,17 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
 #[must_use]
 pub fn warnings_with(scene: &Scene, facts: &Facts) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    parameters::judge(scene, &mut warnings);
-    angles::judge(scene, &mut warnings);
-    bodies::judge(scene, facts, &mut warnings);
-    locked::judge(scene, facts, &mut warnings);
-    elements::judge(scene, &mut warnings);
-    springs::judge(scene, facts, &mut warnings);
-    reach::judge(scene, &mut warnings);
-    torsion_springs::judge(scene, &mut warnings);
-    interactions::judge(scene, &mut warnings);
-    frequencies::judge(scene, facts, &mut warnings);
-    inputs::judge(scene, facts, &mut warnings);
-    readouts::judge(scene, &mut warnings);
+    parameters::check(scene, &mut warnings);
+    angles::check(scene, &mut warnings);
+    bodies::check(scene, facts, &mut warnings);
+    locked::check(scene, facts, &mut warnings);
+    elements::check(scene, &mut warnings);
+    springs::check(scene, facts, &mut warnings);
+    reach::check(scene, &mut warnings);
+    torsion_springs::check(scene, &mut warnings);
+    interactions::check(scene, &mut warnings);
+    frequencies::check(scene, facts, &mut warnings);
+    inputs::check(scene, facts, &mut warnings);
+    readouts::check(scene, &mut warnings);
     warnings
 }

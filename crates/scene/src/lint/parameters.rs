@@ -3,7 +3,7 @@
 use crate::lint::warning::{Severity, Warning};
 use crate::scene::Scene;
 
-pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
     let unused = scene.parameters.iter().filter(|parameter| !parameter.used);
     warnings.extend(unused.map(|parameter| Warning {
         severity: Severity::Warning,

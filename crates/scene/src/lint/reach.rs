@@ -30,7 +30,7 @@ struct Place {
     part: f64,
 }
 
-pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
     let groups = scene.model.groups.iter().enumerate();
     let places: Vec<Place> =
         groups.flat_map(|(number, group)| places(scene, number, group)).collect();
@@ -64,7 +64,7 @@ pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
 /// The distances of a group's points from its two bodies.
 fn places(scene: &Scene, number: usize, group: &Group) -> Vec<Place> {
     let first = usize::from(group.point);
-    let centres = first + usize::from(group.stars);
+    let centres = first + usize::from(group.triples);
     let last = first + group.points();
     let size = size(scene, number, group);
     // A line is unbounded: its points may be anywhere on it.

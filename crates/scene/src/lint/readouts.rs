@@ -5,7 +5,7 @@ use dbd_kernel::readouts::Readout;
 use crate::lint::warning::{Severity, Warning};
 use crate::scene::Scene;
 
-pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
     for (info, line) in scene.readouts.iter().zip(&scene.file_lines.readouts) {
         let Readout::JointForce { group } = info.readout else { continue };
         let number = usize::from(group);

@@ -30,7 +30,7 @@ const STORED: f64 = 300.0;
 /// Largest plausible energy: it lifts the bodies by this many times their size.
 const LIFTS: f64 = 30.0;
 
-pub(super) fn judge(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let groups = facts::groups(scene);
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
     let lines = scene.file_lines.tsdas.iter().chain(&scene.file_lines.points_on_lines);

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 /// Sine of the angle between a spring's axis and its joint's: 0.06°.
 const ASKEW: f64 = 1e-3;
 
-pub(super) fn judge(scene: &Scene, warnings: &mut Vec<Warning>) {
+pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
     let springs = scene.model.torsions.iter().take(scene.torsion_springs());
     let revolutes = Revolutes::of(scene);
     for (number, spring) in springs.enumerate() {

@@ -6,16 +6,16 @@ pub fn is_of(pattern: &str, name: &str) -> bool {
     let [pattern, name] = [pattern, name].map(|text| text.chars().collect::<Vec<_>>());
     let (mut at, mut from) = (0, 0);
     // The last `*`, and the letters that it matched.
-    let mut star: Option<(usize, usize)> = None;
+    let mut triple: Option<(usize, usize)> = None;
     while from < name.len() {
         if at < pattern.len() && pattern[at] == '*' {
-            star = Some((at, from));
+            triple = Some((at, from));
             at += 1;
         } else if at < pattern.len() && (pattern[at] == '?' || pattern[at] == name[from]) {
             (at, from) = (at + 1, from + 1);
-        } else if let Some((place, taken)) = star {
+        } else if let Some((place, taken)) = triple {
             // Match one more letter.
-            star = Some((place, taken + 1));
+            triple = Some((place, taken + 1));
             (at, from) = (place + 1, taken + 1);
         } else {
             return false;

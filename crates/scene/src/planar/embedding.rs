@@ -138,7 +138,7 @@ impl Planar {
         for group in &flat.groups {
             let first = usize::from(group.point);
             let own = &mut points[first..first + group.points()];
-            let (centres, tips) = own.split_at_mut(usize::from(group.stars));
+            let (centres, tips) = own.split_at_mut(usize::from(group.triples));
             centres.iter_mut().for_each(|point| *point = self.point_outward(group.a, *point));
             tips.iter_mut().for_each(|point| *point = self.point_outward(group.b, *point));
         }

@@ -15,7 +15,7 @@ pub(super) struct Decimal<'t> {
 }
 
 /// Largest exponent that can matter for the length of any text.
-const MOST: i64 = 1_000_000_000_000;
+const MAX: i64 = 1_000_000_000_000;
 
 impl<'t> Decimal<'t> {
     /// The number of a unit without one.
@@ -37,7 +37,7 @@ impl<'t> Decimal<'t> {
         if of_exponent == 0 {
             return Some((Self { digits, exponent: 0 }, length));
         }
-        let size = rest[sign..sign + of_exponent].parse().unwrap_or(MOST).min(MOST);
+        let size = rest[sign..sign + of_exponent].parse().unwrap_or(MAX).min(MAX);
         let exponent = if rest.starts_with('-') { -size } else { size };
         Some((Self { digits, exponent }, length + 1 + sign + of_exponent))
     }

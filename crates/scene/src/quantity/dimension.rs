@@ -16,7 +16,7 @@ pub struct Dimension {
 }
 
 /// Largest exponent.
-const MOST: i8 = 24;
+const MAX: i8 = 24;
 
 /// Dimensions with a unit name.
 const NAMES: &[(Dimension, &str)] = &[
@@ -54,7 +54,7 @@ impl Dimension {
     /// The product with a power of another; `None` where an exponent is too large.
     pub(super) fn times(self, other: Self, power: i8) -> Option<Self> {
         let sum = |a: i8, b: i8| {
-            a.checked_add(b.checked_mul(power)?).filter(|sum| (-MOST..=MOST).contains(sum))
+            a.checked_add(b.checked_mul(power)?).filter(|sum| (-MAX..=MAX).contains(sum))
         };
         Some(Self {
             metre: sum(self.metre, other.metre)?,

@@ -163,7 +163,7 @@ fn a_text_has_the_value_of_its_tree() {
         scope.set(row, Quantity { value: *value, dimension: dimension_of(unit) });
     }
     let with_value = Cell::new(0);
-    let judge = |(tree, blanks): (Tree, u64)| {
+    let check = |(tree, blanks): (Tree, u64)| {
         let text = written(&tree, blanks);
         let found = within(&text, Some(&scope));
         let Some((value, [metre, kilogram, second, radian])) = evaluated(&tree) else {
@@ -177,7 +177,7 @@ fn a_text_has_the_value_of_its_tree() {
         with_value.set(with_value.get() + 1);
         Ok(())
     };
-    let run = TestRunner::new(cases()).run(&(trees(), any::<u64>()), judge);
+    let run = TestRunner::new(cases()).run(&(trees(), any::<u64>()), check);
     run.unwrap_or_else(|failure| panic!("{failure}"));
     assert!(with_value.get() > 200, "{} of 512 have a value", with_value.get());
 }

@@ -53,10 +53,10 @@ pub(super) fn read(
         if off.abs() > near {
             leaves(part, "position", &format!(" by {} m", short(off)));
         }
-        if let Some(lean) = lean(body, normal_b) {
+        if let Some(axis_error) = axis_error(body, normal_b) {
             let by = format!(
                 ": no principal axis is normal to it, the nearest is tilted by {} degrees",
-                short(lean)
+                short(axis_error)
             );
             leaves(part, "orientation", &by);
         }
@@ -77,7 +77,7 @@ pub(super) fn read(
 }
 
 /// \[degrees\] tilt of the nearest principal axis, where the normal is not one.
-fn lean(body: &Body<f64>, normal_b: Vec3<f64>) -> Option<f64> {
+fn axis_error(body: &Body<f64>, normal_b: Vec3<f64>) -> Option<f64> {
     let moment = normal_b.scale(body.inertia);
     let across = moment.cross(normal_b);
     let whole = libm::sqrt(moment.dot(moment));

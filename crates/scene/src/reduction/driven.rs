@@ -53,8 +53,9 @@ fn torsion_springs(
 ) {
     for (row, spring) in scene.model.torsions.iter().enumerate() {
         let axis = plane.of_body_inward(spring.a.row(), spring.axis);
-        if let Some(lean) = lean(axis) {
-            let by = format!(": its axis is tilted by {} degrees from the normal", short(lean));
+        if let Some(axis_error) = axis_error(axis) {
+            let by =
+                format!(": its axis is tilted by {} degrees from the normal", short(axis_error));
             leaves(Part::TorsionSpring(row), "axis", &by);
         }
         let orientation =
@@ -83,8 +84,8 @@ fn kind(
 ) -> InputKind<F64> {
     let mut in_plane = |direction: Vec3<f64>| {
         if direction.z.abs() > ALIKE {
-            let lean = libm::asin(direction.z.abs().min(1.0)).to_degrees();
-            leaves("axis", &format!(": its axis is tilted by {} degrees", short(lean)));
+            let axis_error = libm::asin(direction.z.abs().min(1.0)).to_degrees();
+            leaves("axis", &format!(": its axis is tilted by {} degrees", short(axis_error)));
         }
         flat(direction)
     };
@@ -114,14 +115,17 @@ fn kind(
 
 /// An axis that must be the normal.
 fn normal(axis: Vec3<f64>, leaves: &mut dyn FnMut(&'static str, &str)) -> Vec3<f64> {
-    if let Some(lean) = lean(axis) {
-        leaves("axis", &format!(": its axis is tilted by {} degrees from the normal", short(lean)));
+    if let Some(axis_error) = axis_error(axis) {
+        leaves(
+            "axis",
+            &format!(": its axis is tilted by {} degrees from the normal", short(axis_error)),
+        );
     }
     Vec3::new(0.0, 0.0, if axis.z < 0.0 { -1.0 } else { 1.0 })
 }
 
 /// \[degrees\] tilt of an axis against the normal, if any.
-pub(super) fn lean(axis: Vec3<f64>) -> Option<f64> {
+pub(super) fn axis_error(axis: Vec3<f64>) -> Option<f64> {
     let beside = libm::hypot(axis.x, axis.y);
     (beside > ALIKE).then(|| libm::atan2(beside, axis.z.abs()).to_degrees())
 }

@@ -37,7 +37,7 @@ impl Placed<'_> {
     fn element(&self, group: &Group, i: usize) -> Option<Element> {
         let model = self.model;
         let arms = usize::from(group.arms);
-        let tip = usize::from(group.stars) + if group.shared { i % arms } else { i };
+        let tip = usize::from(group.triples) + if group.shared { i % arms } else { i };
         let point = |offset| model.points.get(usize::from(group.point) + offset).copied();
         let centre = self.plane.point_inward(group.a.row(), point(i / arms)?);
         let tip = self.plane.point_inward(group.b.row(), point(tip)?);
@@ -95,7 +95,7 @@ pub(super) struct Element {
 
 impl Element {
     /// From its first point, or the foot on its line, to its second.
-    pub(super) fn stretch(&self) -> Vec3<f64> {
+    pub(super) fn deformation(&self) -> Vec3<f64> {
         let d = self.to - self.from;
         match self.line {
             Some(line) => d - line * d.dot(line),
@@ -105,7 +105,7 @@ impl Element {
 
     /// Its direction; `None` without free length or direction.
     pub(super) fn direction(&self) -> Option<Vec3<f64>> {
-        if self.free_length == 0.0 { None } else { unit(self.stretch()) }
+        if self.free_length == 0.0 { None } else { unit(self.deformation()) }
     }
 
     /// Whether it lies in the plane within `near` \[m\].

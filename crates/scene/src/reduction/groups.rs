@@ -72,19 +72,19 @@ fn turns(scene: &Scene, plane: &Plane, joint: usize) -> Option<f64> {
         return None;
     }
     let axes = joint.hinges.iter().map(|hinge| plane.of_body_inward(hinge.a.row(), hinge.axis));
-    let leans = axes.map(|axis| libm::atan2(libm::hypot(axis.x, axis.y), axis.z.abs()));
-    let least = leans.fold(f64::INFINITY, f64::min);
+    let axis_errors = axes.map(|axis| libm::atan2(libm::hypot(axis.x, axis.y), axis.z.abs()));
+    let least = axis_errors.fold(f64::INFINITY, f64::min);
     (least > ALIKE).then(|| least.to_degrees())
 }
 
 /// Reports a joint that does not stay in the plane.
 fn stays(part: Part, elements: &[Element], turns: Option<f64>, near: f64, leaves: &mut Leaves<'_>) {
     let found = coupling(elements, near);
-    if let Some(lean) = turns {
+    if let Some(axis_error) = turns {
         leaves(
             part,
             "axis",
-            &format!(": its axis is tilted by {} degrees from the normal", short(lean)),
+            &format!(": its axis is tilted by {} degrees from the normal", short(axis_error)),
         );
     } else if found.height.abs() > near {
         leaves(part, "at", &format!(" by {} m", short(found.height)));
@@ -116,16 +116,16 @@ fn lies(part: Part, elements: &[Element], near: f64, leaves: &mut Leaves<'_>) {
 
 /// Adds a group between the bodies of another.
 fn add(model: &mut SceneModel<F64>, states: &[BodyState<F64>], of: &Group, reduced: &Reduced) {
-    let Reduced { law, line, stars, clearance, .. } = reduced;
-    let alike = stars.iter().all(|star| star.len() == stars[0].len());
+    let Reduced { law, line, triples, clearance, .. } = reduced;
+    let alike = triples.iter().all(|triple| triple.len() == triples[0].len());
     let alone: Vec<Vec<Arm>>;
-    let stars = if alike && stars[0].len() <= 3 {
-        stars
+    let triples = if alike && triples[0].len() <= 3 {
+        triples
     } else {
-        alone = stars.iter().flatten().map(|arm| vec![*arm]).collect();
+        alone = triples.iter().flatten().map(|arm| vec![*arm]).collect();
         &alone
     };
-    let arms: Vec<&Arm> = stars.iter().flatten().collect();
+    let arms: Vec<&Arm> = triples.iter().flatten().collect();
     let placed = |body: usize, place: Vec3<f64>| match states.get(body) {
         Some(state) => state.orientation.rotation().to_body(place - state.position),
         None => place,
@@ -140,7 +140,7 @@ fn add(model: &mut SceneModel<F64>, states: &[BodyState<F64>], of: &Group, reduc
         None => flat(placed(of.b.row(), arm.to)),
     };
     let point = model.points.len() as u16;
-    model.points.extend(stars.iter().map(|star| centre(&star[0])));
+    model.points.extend(triples.iter().map(|triple| centre(&triple[0])));
     model.points.extend(arms.iter().map(|arm| tip(arm)));
     let damper = match arms.iter().any(|arm| arm.damping > 0.0) {
         true => DamperIndex(model.dampers.len() as u16),
@@ -184,8 +184,8 @@ fn add(model: &mut SceneModel<F64>, states: &[BodyState<F64>], of: &Group, reduc
         law: *law,
         a: of.a,
         b: of.b,
-        stars: stars.len() as u8,
-        arms: stars[0].len() as u8,
+        triples: triples.len() as u8,
+        arms: triples[0].len() as u8,
         shared: false,
         point,
         element,

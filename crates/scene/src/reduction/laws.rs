@@ -6,13 +6,13 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use dbd_kernel::attitude::Attitude as _;
-use dbd_kernel::laws::{Field, FieldSink, FieldSource, Hinge, MOST_TERMS, Term, Way};
+use dbd_kernel::laws::{CoordinateKind, Field, FieldSink, FieldSource, Hinge, MAX_TERMS, Term};
 use dbd_kernel::{BodyIndex, F64, Geometry as _, Quaternion, Vec3};
 
 use crate::laws::LawList;
 use crate::planar::{ALIKE, Plane, short};
 use crate::reduction::departure::{Leaves, Part};
-use crate::reduction::driven::lean;
+use crate::reduction::driven::axis_error;
 use crate::runtime::SceneModel;
 use crate::scene::Scene;
 
@@ -49,7 +49,7 @@ enum Known {
     Normal([f64; 3]),
     Axis([f64; 3], [f64; 4]),
     Table(Vec<[f64; 2]>),
-    Terms(Box<[Option<Term>; MOST_TERMS]>),
+    Terms(Box<[Option<Term>; MAX_TERMS]>),
 }
 
 /// Converts the constants of a row from space to the plane.
@@ -95,10 +95,10 @@ impl Flat<'_> {
     fn axis_of(&mut self, field: &Field, axis: [f64; 3]) -> ([f64; 3], [f64; 4]) {
         let [a, b] = self.bodies;
         let axis = self.plane.of_body_inward(a.row(), Vec3::from_f64(axis));
-        if let Some(lean) = lean(axis) {
+        if let Some(axis_error) = axis_error(axis) {
             self.leaves(
                 field,
-                format!(": it is tilted by {} degrees from the normal", short(lean)),
+                format!(": it is tilted by {} degrees from the normal", short(axis_error)),
             );
         }
         let orientation =
@@ -130,20 +130,20 @@ impl FieldSink for Flat<'_> {
     fn table(&mut self, _: &Field, knots: &[[f64; 2]], _: usize) {
         self.known.push_back(Known::Table(knots.to_vec()));
     }
-    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MOST_TERMS]) {
+    fn terms(&mut self, field: &Field, terms: &[Option<Term>; MAX_TERMS]) {
         let own = self.bodies;
         let flat = terms.map(|term| {
             let Term { bodies, factor, way } = term?;
             self.bodies = bodies;
             let way = match way {
-                Way::Turn(hinge) => {
+                CoordinateKind::Turn(hinge) => {
                     let (axis, reference) = self.axis_of(field, hinge.axis.to_f64());
                     let axis = Vec3::from_f64(axis);
-                    Way::Turn(Hinge { axis, reference: Quaternion::from_f64(reference) })
+                    CoordinateKind::Turn(Hinge { axis, reference: Quaternion::from_f64(reference) })
                 }
-                Way::Travel { points, axis } => {
+                CoordinateKind::Travel { points, axis } => {
                     let points = points.map(|point| F64::local_to_f64(&point));
-                    Way::Travel {
+                    CoordinateKind::Travel {
                         points: self.points_of(field, points).map(F64::local_from_f64),
                         axis: Vec3::from_f64(self.normal_of(field, axis.to_f64())),
                     }
@@ -180,7 +180,7 @@ impl FieldSource for Flat<'_> {
         to.iter_mut().zip(&knots).for_each(|(place, knot)| *place = *knot);
         Some(knots.len())
     }
-    fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MOST_TERMS]> {
+    fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MAX_TERMS]> {
         if let Known::Terms(terms) = self.known.pop_front()? { Some(*terms) } else { None }
     }
 }

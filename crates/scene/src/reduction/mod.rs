@@ -29,7 +29,7 @@ use crate::scene::Scene;
 const NEAR: f64 = 1e-9;
 
 /// Number of the most common joint axes tried as the normal, besides those of the world.
-const MOST_AXES: usize = 3;
+const MAX_AXES: usize = 3;
 
 /// Reduces a scene to its plane, with or without `planar = true`.
 ///
@@ -71,7 +71,7 @@ fn normals(scene: &Scene) -> Vec<Vec3<f64>> {
     }
     let mut counted: Vec<_> = counted.into_values().collect();
     counted.sort_by_key(|row| std::cmp::Reverse(row.0));
-    let common = counted.into_iter().take(MOST_AXES).map(|(_, axis)| axis);
+    let common = counted.into_iter().take(MAX_AXES).map(|(_, axis)| axis);
     let mut all: Vec<Vec3<f64>> = Vec::new();
     for axis in std::iter::once(z).chain(common).chain([y, x]) {
         if all.iter().all(|known| 1.0 - known.dot(axis).abs() > NEAR) {

@@ -38,7 +38,7 @@ pub(super) struct Reduced {
     /// The direction of its lines, if any.
     pub(super) line: Option<Vec3<f64>>,
     /// The legs of each set.
-    pub(super) stars: Vec<Vec<Arm>>,
+    pub(super) triples: Vec<Vec<Arm>>,
     /// \[m\] 0 without one.
     pub(super) clearance: f64,
     /// Whether it is exactly equivalent in the plane at any deformation.
@@ -68,7 +68,7 @@ pub(super) fn reduced(
             // A line normal to the plane is a point of it.
             bushings(elements, clearance, near)
         }
-        _ => stars(elements, clearance, near),
+        _ => triples(elements, clearance, near),
     }
 }
 
@@ -96,8 +96,8 @@ fn bushings(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, 
         let arm = arm(element, element.stiffness, element.damping, 0.0);
         add(&mut arms, arm, near);
     }
-    let stars = arms.into_iter().map(|arm| vec![arm]).collect();
-    Ok(Reduced { law: Law::PointBushing, line: None, stars, clearance: 0.0, is_exact: true })
+    let triples = arms.into_iter().map(|arm| vec![arm]).collect();
+    Ok(Reduced { law: Law::PointBushing, line: None, triples, clearance: 0.0, is_exact: true })
 }
 
 fn arm(element: &Element, stiffness: f64, damping: f64, free_length: f64) -> Arm {
@@ -129,9 +129,9 @@ fn add(arms: &mut Vec<Arm>, arm: Arm, near: f64) {
 }
 
 /// TSDAs, and points on lines normal to the plane.
-fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obstacle> {
+fn triples(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obstacle> {
     let mut arms: Vec<Arm> = Vec::new();
-    let (mut lean, mut is_exact) = (1.0, true);
+    let (mut axis_error, mut is_exact) = (1.0, true);
     for element in elements {
         let Some(along) = element.direction() else { continue };
         let share = length(flat(along));
@@ -141,7 +141,7 @@ fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obs
         }
         let is_parallel = 1.0 - share <= ALIKE;
         is_exact &= is_parallel;
-        lean = share;
+        axis_error = share;
         let square = if is_parallel { 1.0 } else { share * share };
         let free_length =
             if is_parallel { element.free_length } else { element.free_length * share };
@@ -151,27 +151,27 @@ fn stars(elements: &[Element], clearance: f64, near: f64) -> Result<Reduced, Obs
         let own = arm(element, element.stiffness * square, element.damping * square, free_length);
         add(&mut arms, Arm { reach: element.free_length / share, ..own }, near);
     }
-    let mut stars: Vec<Vec<Arm>> = Vec::new();
+    let mut triples: Vec<Vec<Arm>> = Vec::new();
     for arm in arms {
-        match stars.iter_mut().find(|star| is_near(star[0].from, arm.from, near)) {
-            Some(star) => star.push(arm),
-            None => stars.push(vec![arm]),
+        match triples.iter_mut().find(|triple| is_near(triple[0].from, arm.from, near)) {
+            Some(triple) => triple.push(arm),
+            None => triples.push(vec![arm]),
         }
     }
-    for star in &mut stars {
-        if star.len() > 2
+    for triple in &mut triples {
+        if triple.len() > 2
             && clearance == 0.0
-            && let Some(two) = condensed(star)
+            && let Some(two) = condensed(triple)
         {
-            *star = two;
+            *triple = two;
             is_exact = false;
         }
     }
-    if stars.is_empty() {
+    if triples.is_empty() {
         return Err("has no stiffness or damping in the plane".into());
     }
-    let clearance = if clearance > 0.0 { clearance / lean } else { 0.0 };
-    Ok(Reduced { law: Law::Tsda, line: None, stars, clearance, is_exact })
+    let clearance = if clearance > 0.0 { clearance / axis_error } else { 0.0 };
+    Ok(Reduced { law: Law::Tsda, line: None, triples, clearance, is_exact })
 }
 
 /// The unit direction of a leg.
@@ -187,9 +187,9 @@ fn direction(arm: &Arm) -> Vec3<f64> {
 /// `L0/cos` of the elements, with the cosine of their tilt. For a pin, K its stiffness, the energy of third order in a
 /// displacement δ is `¼·K·δ³·cos/L0·cos(3·φ)` before and `−½·K·x·y·(x + y)/L` after, whose mean squares over all
 /// directions φ are the same then.
-fn condensed(star: &[Arm]) -> Option<Vec<Arm>> {
+fn condensed(triple: &[Arm]) -> Option<Vec<Arm>> {
     let sum = |strength: fn(&Arm) -> f64| {
-        star.iter().fold([0.0; 3], |[xx, xy, yy], arm| {
+        triple.iter().fold([0.0; 3], |[xx, xy, yy], arm| {
             let (u, k) = (direction(arm), strength(arm));
             [xx + k * u.x * u.x, xy + k * u.x * u.y, yy + k * u.y * u.y]
         })
@@ -200,7 +200,7 @@ fn condensed(star: &[Arm]) -> Option<Vec<Arm>> {
         return None;
     }
     let [xx, xy, yy] = if whole(stiff) > 0.0 { stiff } else { damp };
-    let (first, scale) = (direction(star.first()?), xx + yy);
+    let (first, scale) = (direction(triple.first()?), xx + yy);
     let is_round = (xx - yy).abs() <= ALIKE * scale && xy.abs() <= ALIKE * scale;
     let main = if is_round {
         first
@@ -216,8 +216,8 @@ fn condensed(star: &[Arm]) -> Option<Vec<Arm>> {
     if along(damp, main, across).abs() > ALIKE * whole(damp) {
         return None;
     }
-    let free_length = star.iter().map(|arm| arm.reach).sum::<f64>() / star.len() as f64;
-    let from = star.first()?.from;
+    let free_length = triple.iter().map(|arm| arm.reach).sum::<f64>() / triple.len() as f64;
+    let from = triple.first()?.from;
     let arm = |u: Vec3<f64>| Arm {
         from,
         to: from + u * free_length,
@@ -258,7 +258,7 @@ fn lines(
     let mut rows: Vec<Row> = Vec::new();
     for element in elements {
         let along = element.to.dot(line);
-        let deflection = element.stretch().dot(across);
+        let deflection = element.deformation().dot(across);
         let share = element.direction().map_or(1.0, |direction| direction.dot(across).abs());
         let share = if 1.0 - share <= ALIKE {
             1.0
@@ -290,8 +290,8 @@ fn lines(
         return Err("has no stiffness or damping in the plane".into());
     }
     let is_exact = rows.iter().all(Row::is_exact);
-    let stars = rows.into_iter().map(|row| vec![row.settled(line, across)]).collect();
-    Ok(Reduced { law: Law::PointOnLine, line: Some(line), stars, clearance, is_exact })
+    let triples = rows.into_iter().map(|row| vec![row.settled(line, across)]).collect();
+    Ok(Reduced { law: Law::PointOnLine, line: Some(line), triples, clearance, is_exact })
 }
 
 impl Row {
@@ -333,8 +333,8 @@ mod tests {
             for damping in strengths {
                 let found = reduced(Law::Tsda, &pin(stiffness, damping), 0.0, 1e-9).unwrap();
                 let case = format!("stiffness {stiffness:e}, damping {damping:e}: {found:?}");
-                assert!(found.stars.iter().all(|star| !star.is_empty()), "{case}");
-                let arms = || found.stars.iter().flatten();
+                assert!(found.triples.iter().all(|triple| !triple.is_empty()), "{case}");
+                let arms = || found.triples.iter().flatten();
                 assert!(arms().all(|arm| arm.stiffness.is_finite()), "{case}");
                 assert!(arms().all(|arm| arm.damping.is_finite()), "{case}");
             }

@@ -30,7 +30,7 @@ fn it_has_three_bodies_and_twenty_four_tsdas() {
     // Each group's elements and points follow those of the one before.
     for (i, group) in model.groups.iter().enumerate() {
         assert_eq!((group.point, group.element), (5 * i as u16, 6 * i as u16));
-        assert_eq!((group.stars, group.arms, group.shared), (2, 3, true));
+        assert_eq!((group.triples, group.arms, group.shared), (2, 3, true));
     }
 }
 

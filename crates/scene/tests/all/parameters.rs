@@ -71,8 +71,8 @@ fn a_changed_value_gives_the_model_of_a_changed_file() {
     }
     let scene = with(&["step=20us", "duration=0x2", "every=1e-1"]).unwrap();
     assert_eq!((scene.step, scene.duration, scene.every), (Some(20e-6), 2.0, Some(0.1)));
-    let told: Vec<_> = scene.changed.iter().map(|c| (c.before.as_deref(), &*c.now)).collect();
-    assert_eq!(told, [(None, "\"20us\""), (Some("1"), "0x2"), (None, "1e-1")]);
+    let reported: Vec<_> = scene.changed.iter().map(|c| (c.before.as_deref(), &*c.now)).collect();
+    assert_eq!(reported, [(None, "\"20us\""), (Some("1"), "0x2"), (None, "1e-1")]);
 }
 
 #[test]

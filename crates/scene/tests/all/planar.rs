@@ -377,10 +377,10 @@ fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_muc
 /// The plane is the one in which the pin turns, whatever else the scene is symmetric about.
 #[test]
 fn a_pin_turns_in_its_plane() {
-    let lean = pinned(PLACE, "at = [0, 0, 0]\naxis = [0, 1, 1]", "gravity = [0, -9.81, 0]");
+    let axis_error = pinned(PLACE, "at = [0, 0, 0]\naxis = [0, 1, 1]", "gravity = [0, -9.81, 0]");
     let words = "`axis` of joint `pin` leaves the plane z = 0: its axis is tilted by 45 degrees \
         from the normal";
-    assert_eq!(refusal(&lean).message(), words);
+    assert_eq!(refusal(&axis_error).message(), words);
     let across = pinned(PLACE, "at = [0, 0, 0]\naxis = [0, 1, 0]", "");
     let scene = Scene::parse(&across, "pinned.toml").unwrap();
     assert_eq!(scene.planar.unwrap().plane.name(), "y = 0");
@@ -430,7 +430,7 @@ fn a_pin_becomes_two_springs_of_its_stiffness_and_what_lies_in_the_plane_stays()
     let planar = scene.planar.unwrap();
     let model = &planar.model;
     let pin = model.groups[0];
-    assert_eq!((pin.law, pin.stars, pin.arms, pin.shared), (Law::Tsda, 1, 2, false));
+    assert_eq!((pin.law, pin.triples, pin.arms, pin.shared), (Law::Tsda, 1, 2, false));
     // Each of the two ends of the pin has the stiffness k·I.
     for (tsda, damping) in model.tsdas[..2].iter().zip(&model.dampers) {
         assert!((tsda.stiffness - 2e5).abs() < 1e-9, "{tsda:?}");

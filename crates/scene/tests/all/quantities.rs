@@ -81,7 +81,7 @@ fn texts_give_the_bits_of_plain_numbers() {
     );
     assert_eq!(written.model, plain.model);
     assert_eq!((written.duration, written.step), (plain.duration, plain.step));
-    let told: Vec<_> =
+    let reported: Vec<_> =
         written.parameters.iter().map(|p| (p.name.as_str(), p.value, p.unit.as_str())).collect();
     let expected = [
         ("width", 0.25, "m"),
@@ -89,7 +89,7 @@ fn texts_give_the_bits_of_plain_numbers() {
         ("stiff", 50.0, "N·m/rad"),
         ("soft", 25.0, "N·m/rad"),
     ];
-    assert_eq!(told, expected);
+    assert_eq!(reported, expected);
     assert!(plain.parameters.is_empty());
 }
 
@@ -271,8 +271,8 @@ fn parameters_and_values_are_changed_by_path() {
     assert!((body.angular_velocity.z - core::f64::consts::TAU).abs() < 1e-15);
     assert_eq!((scene.model.bodies[0].mass, scene.step), (3.0, Some(4e-5)));
     assert_eq!((scene.model.tsdas[0].stiffness, scene.model.dampers[0]), (4.5e6, 15.0));
-    let told: Vec<_> = scene.parameters.iter().map(|p| (p.value, p.unit.as_str())).collect();
-    assert_eq!(told, [(0.4, "m"), (4.5e6, "N/m"), (3.0, "kg")]);
+    let reported: Vec<_> = scene.parameters.iter().map(|p| (p.value, p.unit.as_str())).collect();
+    assert_eq!(reported, [(0.4, "m"), (4.5e6, "N/m"), (3.0, "kg")]);
     let changed = &scene.changed[0];
     assert_eq!(
         (changed.path.as_str(), changed.before.as_deref(), changed.now.as_str()),

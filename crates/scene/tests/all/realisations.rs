@@ -71,18 +71,18 @@ fn the_nearest_word_counts() {
 #[test]
 fn what_cannot_be_a_bushing_stays_or_is_refused() {
     let slider = "type = \"cylindrical\"\naxis = [1, 0, 0]\nspan = 0.1\noffset = 0.02\n";
-    let loose = "type = \"spherical\"\narm = 0.05\nclearance = 1e-4\n";
-    for joint in [slider, loose] {
+    let approximate = "type = \"spherical\"\narm = 0.05\nclearance = 1e-4\n";
+    for joint in [slider, approximate] {
         for head in [BUSHING, "defaults.joint = { damping = 1 }"] {
             assert_eq!(scene(head, joint).unwrap().joints[0].realisation, Realisation::Tsda);
         }
         let refused = scene("", &format!("{joint}{BUSHING}")).unwrap_err();
         let said = refused.message().to_owned();
-        assert!(said.starts_with("`realisation` of joint `j` is "), "{said}");
+        assert!(said.starts_with("`realisation` of joint `j` "), "{said}");
         assert!(refused.line().is_some());
     }
     assert!(scene("defaults.joint = { realisation = \"bushing\" }", slider).is_ok());
-    assert!(scene("defaults.joint = { realisation = \"bushing\" }", loose).is_err());
+    assert!(scene("defaults.joint = { realisation = \"bushing\" }", approximate).is_err());
 }
 
 #[test]

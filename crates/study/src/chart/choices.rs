@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use dbd_report::output::label_spots::LabelSpots;
+use dbd_report::output::label_positions::LabelPositions;
 use dbd_report::output::markup::escape;
 use dbd_report::output::svg::label;
 
@@ -86,7 +86,12 @@ impl Drawing<'_> {
     }
 
     /// Each choice's number near its mark, and the line down to it from its accuracy.
-    pub(super) fn numbers(&self, text: &mut String, spots: &mut LabelSpots, choices: &[Choice]) {
+    pub(super) fn numbers(
+        &self,
+        text: &mut String,
+        positions: &mut LabelPositions,
+        choices: &[Choice],
+    ) {
         for (rank, choice) in choices.iter().enumerate() {
             let (x, y) = self.at(choice.row);
             let top = self.y.at(choice.accuracy);
@@ -100,7 +105,7 @@ impl Drawing<'_> {
                 continue;
             }
             let size = (2.0 * DISC, 2.0 * DISC);
-            if let Some(found) = spots.find((x, y), size, (-0.7, 0.7), 1e4) {
+            if let Some(found) = positions.find((x, y), size, (-0.7, 0.7), 1e4) {
                 let at = (found.x + DISC, found.y + DISC);
                 let _ = writeln!(
                     text,

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use dbd_plant::digits::significant;
-use dbd_report::output::label_spots::{LabelSpots, Rectangle};
+use dbd_report::output::label_positions::{LabelPositions, Rectangle};
 use dbd_report::output::svg::label;
 
 use crate::chart::drawing::{Drawing, LABEL, Line, MARK};
@@ -128,12 +128,12 @@ impl Drawing<'_> {
     }
 
     /// Labels at the floor and at real time.
-    pub(super) fn remarks(&self, text: &mut String, spots: &mut LabelSpots) {
+    pub(super) fn remarks(&self, text: &mut String, positions: &mut LabelPositions) {
         let Layout { left, right, top, bottom, .. } = *self.layout;
         let mut remark = |anchor: (f64, f64), to_left: bool, said: &str| {
             let width = said.chars().count() as f64 * LABEL * 0.6;
             let x = if to_left { anchor.0 - width } else { anchor.0 };
-            spots.reserve(Rectangle { x, y: anchor.1 - LABEL, width, height: LABEL + 4.0 });
+            positions.reserve(Rectangle { x, y: anchor.1 - LABEL, width, height: LABEL + 4.0 });
             label(text, anchor, if to_left { "end" } else { "start" }, FAINT, said);
         };
         if self.y.holds(self.chart.uncertainty) {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use dbd_report::output::label_spots::{LabelSpots, Rectangle};
+use dbd_report::output::label_positions::{LabelPositions, Rectangle};
 use dbd_report::output::markup::escape;
 
 use crate::chart::choices::Choice;
@@ -22,18 +22,18 @@ impl Drawing<'_> {
         let Layout { left, right, top, bottom, wide, .. } = *self.layout;
         let (x, y) = (left + 4.0, top + 4.0);
         let (width, height) = (right - left - 8.0, bottom - top - 8.0);
-        let mut spots = LabelSpots::new(Rectangle { x, y, width, height });
+        let mut positions = LabelPositions::new(Rectangle { x, y, width, height });
         for line in &self.lines {
             let at: Vec<_> = line.stable.iter().map(|row| self.at(*row)).collect();
-            at.windows(2).for_each(|pair| spots.stroke(pair[0], pair[1]));
-            at.iter().for_each(|at| spots.mark(*at));
+            at.windows(2).for_each(|pair| positions.stroke(pair[0], pair[1]));
+            at.iter().for_each(|at| positions.mark(*at));
         }
-        band.windows(2).for_each(|pair| spots.stroke(pair[0], pair[1]));
-        self.remarks(text, &mut spots);
+        band.windows(2).for_each(|pair| positions.stroke(pair[0], pair[1]));
+        self.remarks(text, &mut positions);
         if !wide {
             return;
         }
-        self.numbers(text, &mut spots, choices);
+        self.numbers(text, &mut positions, choices);
         // The paper's lines first: everything is compared with them. The quiet ones last.
         let mut lines: Vec<&Line<'_>> = order.to_vec();
         lines.sort_by_key(|line| (!line.paper, line.quiet));
@@ -47,7 +47,7 @@ impl Drawing<'_> {
             let most = if line.paper { line.stable.len() } else { 1 };
             for row in line.stable.iter().rev().take(most) {
                 let how = (worst, line.paper);
-                if self.label(text, &mut spots, (*row, line), &name, (0.9, 0.3), how) {
+                if self.label(text, &mut positions, (*row, line), &name, (0.9, 0.3), how) {
                     break;
                 }
             }
@@ -59,7 +59,7 @@ impl Drawing<'_> {
             let Some(line) = self.line_of(*row) else { continue };
             let point = &self.chart.points[*row];
             let name = format!("{} · {}", point.stepper.label(), shown(point.step));
-            self.label(text, &mut spots, (*row, line), &name, (-0.8, 0.6), (70.0, true));
+            self.label(text, &mut positions, (*row, line), &name, (-0.8, 0.6), (70.0, true));
         }
     }
 
@@ -72,7 +72,7 @@ impl Drawing<'_> {
     fn label(
         &self,
         text: &mut String,
-        spots: &mut LabelSpots,
+        positions: &mut LabelPositions,
         (row, line): (usize, &Line<'_>),
         name: &str,
         wish: (f64, f64),
@@ -81,7 +81,7 @@ impl Drawing<'_> {
         let anchor = self.at(row);
         let share = if bold { 0.66 } else { 0.6 };
         let size = (name.chars().count() as f64 * LABEL * share, LABEL + 3.0);
-        let Some(found) = spots.find(anchor, size, wish, worst) else {
+        let Some(found) = positions.find(anchor, size, wish, worst) else {
             return false;
         };
         let colour = line.style.text;

@@ -39,7 +39,7 @@ pub enum Shape {
     /// Corners on a circle, the first at an angle [deg] clockwise from the top.
     Polygon(u8, u8),
     /// A star with the given number of points.
-    Star(u8),
+    Triple(u8),
 }
 
 const SHAPES: [Shape; 9] = [
@@ -48,10 +48,10 @@ const SHAPES: [Shape; 9] = [
     Shape::Polygon(3, 0),
     Shape::Polygon(4, 0),
     Shape::Polygon(3, 60),
-    Shape::Star(5),
+    Shape::Triple(5),
     Shape::Polygon(5, 0),
-    Shape::Star(4),
-    Shape::Star(6),
+    Shape::Triple(4),
+    Shape::Triple(6),
 ];
 
 /// Line and text.
@@ -132,7 +132,7 @@ impl Style {
                 );
             }
             Shape::Polygon(corners, first) => (corners, f64::from(first), 1.0),
-            Shape::Star(points) => (2 * points, 0.0, 0.45),
+            Shape::Triple(points) => (2 * points, 0.0, 0.45),
         };
         let mut around = String::new();
         for corner in 0..corners {

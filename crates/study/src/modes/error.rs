@@ -5,7 +5,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 /// Bodies at most: time grows with the cube of their number, to some seconds at this one.
-pub const MOST_BODIES: usize = 200;
+pub const MAX_BODIES: usize = 200;
 
 /// \[m, rad\] step of the fourth-order differences: their truncation error is of the order of 1e-20 m⁴ over a spring's
 /// length to the fourth power, rounding of 1e-16 m over this.
@@ -19,7 +19,7 @@ pub(super) const WEIGHTS: [f64; 2] = [8.0 / 12.0, -1.0 / 12.0];
 pub enum ModesError {
     /// Too many bodies.
     #[error(
-        "computing all modes of {bodies} bodies would take too long; the maximum is {MOST_BODIES}"
+        "computing all modes of {bodies} bodies would take too long; the maximum is {MAX_BODIES}"
     )]
     #[diagnostic(help(
         "use `host-sim modes`, which finds the lowest and highest modes of larger scenes"

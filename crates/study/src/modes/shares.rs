@@ -5,7 +5,7 @@
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::forces::wrenches;
-use dbd_kernel::laws::{Instant, Laws as _, Record};
+use dbd_kernel::laws::{ForcePair, Instant, Laws as _};
 use dbd_kernel::model::Law;
 use dbd_kernel::{BodyIndex, F64, Geometry as _, Quaternion, State, Vec3};
 use dbd_scene::{Scene, SceneModel};
@@ -121,16 +121,17 @@ fn law_powers(
     let mut powers = Vec::new();
     model.laws.look_at_all(&state.laws, &mut |_, law| {
         let seen = instant.seen(law.bodies());
-        let record = seen.as_ref().and_then(|seen| law.record(seen));
+        let force_pair = seen.as_ref().and_then(|seen| law.force_pair(seen));
         let along = |body: BodyIndex, force: Vec3<f64>, torque: Vec3<f64>| {
             let Some([x, y, z, a, b, c]) = motion.get(body.row()).copied() else { return 0.0 };
             let torque = state.bodies[body.row()].orientation.rotation().to_body(torque);
             force.dot(Vec3::new(x, y, z)) + torque.dot(Vec3::new(a, b, c))
         };
-        let power = |[a, b]: [BodyIndex; 2], record: &Record<f64>| {
-            along(a, record.force, record.torque_a) - along(b, record.force, record.torque_b)
+        let power = |[a, b]: [BodyIndex; 2], force_pair: &ForcePair<f64>| {
+            along(a, force_pair.force, force_pair.torque_a)
+                - along(b, force_pair.force, force_pair.torque_b)
         };
-        let mut sum = record.map_or(0.0, |record| power(law.bodies(), &record));
+        let mut sum = force_pair.map_or(0.0, |force_pair| power(law.bodies(), &force_pair));
         if let Some(seen) = &seen {
             law.each_branch(seen, &mut |_, branch| {
                 let Some(seen) = seen.between(branch.bodies) else { return };

@@ -8,12 +8,12 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::shares::{Element, elements, softened, strain_shares};
-use super::{MOST_BODIES, Modes, ModesError, damped, extremes, matrices, modes};
+use super::{MAX_BODIES, Modes, ModesError, damped, extremes, matrices, modes};
 
 /// Bodies at most for the quadratic eigenproblem.
 pub const QUADRATIC: usize = 60;
 
-/// Highest modes that are found of more than [`MOST_BODIES`] bodies, to follow the fastest one as a joint softens.
+/// Highest modes that are found of more than [`MAX_BODIES`] bodies, to follow the fastest one as a joint softens.
 const HIGHEST: usize = 6;
 
 /// Elements that a row names.
@@ -138,7 +138,7 @@ fn found(
     state: &State<SceneModel<F64>>,
     count: usize,
 ) -> Result<Modes, ModesError> {
-    match model.bodies.len() > MOST_BODIES {
+    match model.bodies.len() > MAX_BODIES {
         true => extremes(model, state, [count, HIGHEST]),
         false => modes(model, state),
     }

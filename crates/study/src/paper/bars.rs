@@ -6,7 +6,7 @@ use dbd_scene::Scene;
 use crate::paper::context::{Context, PaperError, advance, dbd, place, scheme};
 use crate::paper::counts;
 use crate::paper::drift::{drift, drift_of_implicit};
-use crate::paper::finding::{Curve, Finding, LOOSE, Plot, Row, Tolerance, assumptions};
+use crate::paper::finding::{APPROXIMATE, Curve, Finding, Plot, Row, Tolerance, assumptions};
 use crate::timing::costs;
 use crate::ways::Way;
 
@@ -241,10 +241,10 @@ pub(super) fn topology_value(context: &Context<'_>) -> Result<Finding, PaperErro
         let [input, output] = links;
         let ours = ratio(&scene, [place(&scene, input)?, place(&scene, output)?])?;
         let quantity = format!("KT of topology {topology}, ω_out/ω_in as defined");
-        rows.push(Row::compared(quantity, "", paper, ours, LOOSE));
+        rows.push(Row::compared(quantity, "", paper, ours, APPROXIMATE));
         let quantity = format!("KT of topology {topology}, inverse ratio");
         rows.push(
-            Row::compared(quantity, "", paper, 1.0 / ours, LOOSE)
+            Row::compared(quantity, "", paper, 1.0 / ours, APPROXIMATE)
                 .noted("the printed values are nearer to the inverse of the printed definition"),
         );
         found.push(1.0 / ours);

@@ -3,7 +3,7 @@
 use dbd_plant::plant;
 
 use crate::paper::context::{Context, PaperError, advance, dbd};
-use crate::paper::finding::{Finding, LOOSE, Row, assumptions};
+use crate::paper::finding::{APPROXIMATE, Finding, Row, assumptions};
 
 /// \[s\] between velocities whose difference is a mean acceleration.
 const INTERVAL: f64 = 0.01;
@@ -41,7 +41,7 @@ pub(super) fn chains(context: &Context<'_>) -> Result<Finding, PaperError> {
         }
         let ours = (sum / f64::from(count)).sqrt();
         let quantity = format!("{name}, RMS acceleration");
-        rows.push(Row::compared(quantity, "m/s²", acceleration, ours, LOOSE));
+        rows.push(Row::compared(quantity, "m/s²", acceleration, ours, APPROXIMATE));
         rows.push(Row::open(
             format!("{name}, solver steps in {seconds} s"),
             "",

@@ -78,7 +78,7 @@ pub(super) fn growth(context: &Context<'_>) -> Result<Finding, PaperError> {
             "",
             Some(2.0),
             Some(ours),
-            "the paper's is that of ADAMS; here stands a linearly implicit solver with a sparse matrix",
+            "the paper's exponent is that of ADAMS; this one is of a linearly implicit solver with a sparse matrix",
         ));
     }
     let paper: Vec<[f64; 2]> =
@@ -101,7 +101,7 @@ pub(super) fn growth(context: &Context<'_>) -> Result<Finding, PaperError> {
     }];
     Ok(Finding {
         assumptions: assumptions(&[
-            "The paper's points of ADAMS are in its figure alone; a matrix solver of this project stands in for it.",
+            "The paper gives its ADAMS points only in a figure; a matrix solver of this project replaces ADAMS.",
             "Least of at least fifteen measurements, thread time; the axes are logarithmic because machines differ by three decades.",
         ]),
         rows,

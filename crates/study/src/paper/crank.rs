@@ -8,7 +8,7 @@ use dbd_scene::{Scene, SceneModel};
 
 use crate::paper::context::{Context, PaperError, dbd, place, scheme};
 use crate::paper::drift::{self, Drift, drift};
-use crate::paper::finding::{Curve, Finding, LOOSE, Plot, Row, Tolerance, assumptions};
+use crate::paper::finding::{APPROXIMATE, Curve, Finding, Plot, Row, Tolerance, assumptions};
 
 /// \[s\] the torque ends, the run ends.
 const TORQUE_ENDS: f64 = 2.0;
@@ -120,7 +120,7 @@ pub(super) fn motion(context: &Context<'_>) -> Result<Finding, PaperError> {
         ),
         Row::compared("largest force on the slider along its axis", "N", FORCE, force, near)
             .noted("mass times mean acceleration over 5 ms; the joints' vibration is part of it"),
-        Row::compared("RMS offset of the slider from its axis", "m", OFFSET, rms(&run.offsets), LOOSE),
+        Row::compared("RMS offset of the slider from its axis", "m", OFFSET, rms(&run.offsets), APPROXIMATE),
         Row::open(
             "RMS rotation of the slider about its axis",
             "rad",
@@ -238,7 +238,7 @@ pub(super) fn plateau(context: &Context<'_>) -> Result<Finding, PaperError> {
         match at(method, STEP) {
             Some(rate) => {
                 let quantity = format!("rate of energy loss at 33.8 µs, {name}");
-                let row = Row::compared(quantity, "J/s", middle, rate.abs(), LOOSE);
+                let row = Row::compared(quantity, "J/s", middle, rate.abs(), APPROXIMATE);
                 rows.push(row.noted("33.8 µs are the paper's 1/((2π)²·750 Hz)"));
             }
             None => rows.push(Row::claim(

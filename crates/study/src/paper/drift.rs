@@ -76,8 +76,9 @@ pub fn drift_of_implicit(scene: &Scene, step: f64, end: f64) -> Option<Drift> {
                     now.rate.into(),
                 );
             }
-            for (turns, twist) in state.turns.iter_mut().zip(&implicit.state.twists) {
-                *turns = (twist / TAU).round() as _;
+            for (turns, torsion_angle) in state.turns.iter_mut().zip(&implicit.state.torsion_angles)
+            {
+                *turns = (torsion_angle / TAU).round() as _;
             }
             samples.push([done as f64 * step, energy(model, &state, step).total()]);
         }

@@ -44,7 +44,7 @@ pub struct Tolerance {
 pub const EXACT: Tolerance = Tolerance { within: 0.0, factor: 1.0 };
 
 /// A value that a pose or a reading of the text moves by some tens of per cent.
-pub const LOOSE: Tolerance = Tolerance { within: 0.15, factor: 3.0 };
+pub const APPROXIMATE: Tolerance = Tolerance { within: 0.15, factor: 3.0 };
 
 /// A result of the paper and of this project.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -227,7 +227,7 @@ mod tests {
 
     #[test]
     fn verdicts_follow_from_the_ratio() {
-        let verdict = |ours| Row::compared("x", "m", 2.0, ours, LOOSE).verdict.unwrap();
+        let verdict = |ours| Row::compared("x", "m", 2.0, ours, APPROXIMATE).verdict.unwrap();
         for (ours, expected) in [
             (2.2, Verdict::Reproduced),
             (1.75, Verdict::Reproduced),

@@ -11,7 +11,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 use serde::Serialize;
 
-use crate::modes::{MOST_BODIES, extremes, modes};
+use crate::modes::{MAX_BODIES, extremes, modes};
 use crate::paper::context::{Context, PaperError, advance, scheme};
 use crate::paper::finding::{Curve, Finding, Map, Plot, Row, Tolerance, assumptions};
 use crate::paper::plot::svg;
@@ -160,7 +160,7 @@ impl Kick {
 pub fn kick(scene: &Scene, joint: usize) -> Result<Kick, PaperError> {
     let model = frozen(&scene.model, &State::initial(&scene.model));
     let state = State::initial(&model);
-    let frequencies = if model.bodies.len() > MOST_BODIES {
+    let frequencies = if model.bodies.len() > MAX_BODIES {
         extremes(&model, &state, [200, 20])?.frequencies
     } else {
         modes(&model, &state)?.frequencies

@@ -12,7 +12,7 @@ use crate::variants::distance;
 use crate::ways::Way;
 
 /// Changes that are listed, at most.
-const MOST: usize = 3;
+const MAX: usize = 3;
 
 /// \[1\] A change whose cost is above this fraction of the present one is not listed.
 const WORTH: f64 = 0.9;
@@ -112,7 +112,7 @@ pub(super) fn of(search: &Search<'_>, trial: &Trial) -> Vec<Change> {
         let step = measured.map(|_| search.head.grid.step(steps));
         Change { what, set, predicted, measured, step, moves }
     };
-    found.into_iter().take(MOST).map(measure).collect()
+    found.into_iter().take(MAX).map(measure).collect()
 }
 
 /// \[s\] the longest step of a method that may be advised, its stability found by running it.

@@ -19,7 +19,7 @@ use thiserror::Error;
 
 use crate::frame::{TradeOptions, WindowError, frame};
 use crate::grid::unit;
-use crate::reference::truth::NoTruth;
+use crate::reference::reference_solution::NoReferenceSolution;
 use crate::survey::{Phase, look};
 use crate::words::shown;
 
@@ -95,7 +95,7 @@ pub enum AdviseError {
     /// There is no reference solution to compare with.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    NoTruth(#[from] NoTruth),
+    NoReferenceSolution(#[from] NoReferenceSolution),
     /// No step is stable, or no precision represents the scene.
     #[error("no method completes {} of the scene", shown(*window))]
     #[diagnostic(help(
@@ -156,13 +156,13 @@ pub fn recommend(
         let highest = Frequencies::of(scene).estimate / SLOWER;
         frame.unit = unit(scene, None, highest).unwrap_or(frame.unit);
     }
-    let (head, truth) = look(scene, 0, frame, progress)?;
+    let (head, reference_solution) = look(scene, 0, frame, progress)?;
     let known = head.uncertainty;
     if let Some(asked) = request.accuracy.filter(|asked| *asked < known) {
         return Err(AdviseError::Accuracy { asked, known });
     }
     progress(Phase::Limits);
-    let mut search = Search::new(scene, request, head, truth);
+    let mut search = Search::new(scene, request, head, reference_solution);
     if search.candidates.is_empty() {
         let why =
             "it uses custom laws, or no method with counted instructions can run it".to_owned();

@@ -4,7 +4,7 @@ mod outcome;
 
 use std::collections::BTreeMap;
 
-use dbd_plant::judge::Judge;
+use dbd_plant::monitor::Monitor;
 use dbd_plant::{Frequencies, Method, PlantError, plant};
 use dbd_scene::Scene;
 
@@ -98,7 +98,7 @@ pub(super) struct Search<'s> {
     pub(super) scene: &'s Scene,
     request: &'s Request,
     pub(super) head: Head,
-    truth: Vec<State>,
+    reference_solution: Vec<State>,
     travel: f64,
     models: Vec<Model>,
     pub(super) candidates: Vec<Candidate>,
@@ -113,7 +113,7 @@ impl<'s> Search<'s> {
         scene: &'s Scene,
         request: &'s Request,
         head: Head,
-        truth: Vec<State>,
+        reference_solution: Vec<State>,
     ) -> Self {
         let own = Variant { name: AS_IT_IS, scene: scene.clone() };
         let model = |Variant { name, scene }: Variant| Model {
@@ -125,13 +125,14 @@ impl<'s> Search<'s> {
         };
         let models: Vec<Model> = [own].into_iter().chain(variants(scene)).map(model).collect();
         let metric = Metric::of(&Mechanism::of(scene).0);
-        let ways = truth.iter().map(|state| metric.distance(&truth[0], state));
+        let ways =
+            reference_solution.iter().map(|state| metric.distance(&reference_solution[0], state));
         let travel = ways.fold(0.0, f64::max);
         let mut search = Self {
             scene,
             request,
             head,
-            truth,
+            reference_solution,
             travel,
             models,
             candidates: Vec::new(),
@@ -227,18 +228,18 @@ impl<'s> Search<'s> {
     /// \[m\] error of a run of a model by a method; `None` if it fails.
     pub(super) fn measured(&self, model: &Scene, method: &Method, steps: u64) -> Option<f64> {
         let states = self.run(model, method, steps)?;
-        let error = distance((self.scene, &self.truth), (model, &states));
+        let error = distance((self.scene, &self.reference_solution), (model, &states));
         Some(error).filter(|error| error.is_finite())
     }
 
     /// The states of a model at the samples, t = 0 first.
     pub(super) fn run(&self, model: &Scene, method: &Method, steps: u64) -> Option<Vec<State>> {
         let mut plant = plant(model, method, self.head.grid.step(steps)).ok()?;
-        let mut judge = Judge::new(model, plant.as_ref());
+        let mut monitor = Monitor::new(model, plant.as_ref());
         let mut states = vec![State::of(&plant.state())];
-        while states.len() < self.truth.len() {
+        while states.len() < self.reference_solution.len() {
             let state = plant.advance(steps).is_running().then(|| plant.state())?;
-            judge.judge(&state).ok()?;
+            monitor.monitor(&state).ok()?;
             states.push(State::of(&state));
         }
         Some(states)

@@ -42,8 +42,8 @@ fn request(accuracy: Option<f64>) -> Request {
 fn search<'s>(scene: &'s Scene, request: &'s Request) -> Search<'s> {
     let options = TradeOptions { window: request.window, ..TradeOptions::default() };
     let frame = frame(scene, &options).unwrap();
-    let (head, truth) = look(scene, 0, frame, &mut |_| ()).unwrap();
-    Search::new(scene, request, head, truth)
+    let (head, reference_solution) = look(scene, 0, frame, &mut |_| ()).unwrap();
+    Search::new(scene, request, head, reference_solution)
 }
 
 /// Leapfrog in double precision on the scene as it is, at its longest step.

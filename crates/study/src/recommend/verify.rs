@@ -4,7 +4,7 @@
 //! later, as frequencies and speeds rise along the motion; a mechanism may also come apart by itself, whatever the
 //! step.
 
-use dbd_plant::judge::{Judge, Opening};
+use dbd_plant::monitor::{Monitor, Opening};
 use dbd_plant::{Frequencies, Method, PlantError, plant};
 use dbd_scene::Scene;
 use serde::Serialize;
@@ -58,9 +58,9 @@ pub(super) fn ends(model: &Scene, until: f64) -> Option<Ends> {
     let method = Method::default();
     let step = Frequencies::of(model).default_limit(&method, model.duration) / FINER;
     let mut apart = None;
-    let followed = look(model, &method, step, until, &mut |judge, time| {
+    let followed = look(model, &method, step, until, &mut |monitor, time| {
         let is_open = |opening: &&Opening| opening.extension > opening.free_length;
-        let open = judge.openings().iter().find(is_open);
+        let open = monitor.openings().iter().find(is_open);
         let joint = open.and_then(|opening| model.joints.get(opening.joint));
         apart = joint.map(|joint| Ends { time, joint: Some(joint.name.clone()) });
         apart.is_some()
@@ -75,21 +75,21 @@ fn look(
     method: &Method,
     step: f64,
     until: f64,
-    enough: &mut dyn FnMut(&Judge, f64) -> bool,
+    enough: &mut dyn FnMut(&Monitor, f64) -> bool,
 ) -> Result<Followed, PlantError> {
     let mut plant = plant(model, method, step)?;
     let bodies = model.body_names.len().max(1) as f64;
     let steps = (until / step).round().min(AFFORDABLE / bodies).max(1.0) as u64;
-    let mut judge = Judge::new(model, plant.as_ref());
+    let mut monitor = Monitor::new(model, plant.as_ref());
     let stride = steps.div_ceil(LOOKS);
     let mut done = 0;
     while done < steps {
         let some = stride.min(steps - done);
-        if !plant.advance(some).is_running() || judge.judge(&plant.state()).is_err() {
+        if !plant.advance(some).is_running() || monitor.monitor(&plant.state()).is_err() {
             return Ok(Followed { steps: done, fails: Some(plant.time()) });
         }
         done += some;
-        if enough(&judge, plant.time()) {
+        if enough(&monitor, plant.time()) {
             break;
         }
     }

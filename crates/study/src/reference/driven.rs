@@ -58,10 +58,10 @@ impl Sensor {
             instant.place(&Point { end: End::Body(row), local: Vector3::from(local) })
         };
         let along = |v: Vector3<f64>| Vector3::from(self.weights).dot(&v);
-        let twist = |spring: u16| torsions[usize::from(spring)].twist(instant);
+        let torsion_angle = |spring: u16| torsions[usize::from(spring)].torsion_angle(instant);
         let reading = match self.sensor {
-            KernelSensor::Angle { spring, offset } => twist(spring).angle + offset,
-            KernelSensor::Rate { spring } => twist(spring).rate,
+            KernelSensor::Angle { spring, offset } => torsion_angle(spring).angle + offset,
+            KernelSensor::Rate { spring } => torsion_angle(spring).rate,
             KernelSensor::Point { body, point } => {
                 along(place(body.row(), point.to_f64()).position)
             }
@@ -115,9 +115,9 @@ impl Element for Input {
                 turn(wrenches, *b, torque);
             }
             InputKind::Actuator(pair) => {
-                let stretch = pair.at(at);
-                let along = stretch.displacement.try_normalize(0.0).unwrap_or_default();
-                stretch.pull(along * value, wrenches);
+                let deformation = pair.at(at);
+                let along = deformation.displacement.try_normalize(0.0).unwrap_or_default();
+                deformation.pull(along * value, wrenches);
             }
         }
     }

@@ -55,7 +55,7 @@ pub struct Pair {
 }
 
 /// A pair at an instant.
-pub(crate) struct Stretch {
+pub(crate) struct Deformation {
     a: Placed,
     b: Placed,
     pub(crate) displacement: Vector3<f64>,
@@ -68,7 +68,7 @@ impl Pair {
         [self.a.end, self.b.end]
     }
 
-    pub(crate) fn at(&self, at: &Instant<'_>) -> Stretch {
+    pub(crate) fn at(&self, at: &Instant<'_>) -> Deformation {
         let (mut a, b) = (at.place(&self.a), at.place(&self.b));
         let line = self.line.map(|line| at.to_world(a.end, line));
         if let Some(line) = line {
@@ -77,11 +77,11 @@ impl Pair {
         }
         let (displacement, rate) = (b.position - a.position, b.velocity - a.velocity);
         let rate = line.map_or(rate, |line| rate - line * line.dot(&rate));
-        Stretch { a, b, displacement, rate, line }
+        Deformation { a, b, displacement, rate, line }
     }
 }
 
-impl Stretch {
+impl Deformation {
     /// Pulls the ends towards each other with `force` on the first.
     pub(crate) fn pull(&self, force: Vector3<f64>, wrenches: &mut [Wrench]) {
         push(wrenches, &self.a, force);
@@ -150,13 +150,13 @@ pub struct Tsda {
 
 impl Element for Tsda {
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
-        let stretch = self.pair.at(at);
-        let length = stretch.displacement.norm();
+        let deformation = self.pair.at(at);
+        let length = deformation.displacement.norm();
         let Some((extension, damping)) = self.law.engaged(length) else { return };
         if length > 0.0 {
-            let along = stretch.displacement / length;
-            let damped = damping * along.dot(&stretch.rate);
-            stretch.pull(along * (self.law.stiffness * extension + damped), wrenches);
+            let along = deformation.displacement / length;
+            let damped = damping * along.dot(&deformation.rate);
+            deformation.pull(along * (self.law.stiffness * extension + damped), wrenches);
         }
     }
 
@@ -165,12 +165,12 @@ impl Element for Tsda {
     }
 
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
-        let stretch = self.pair.at(at);
-        let length = stretch.displacement.norm();
+        let deformation = self.pair.at(at);
+        let length = deformation.displacement.norm();
         let Some((_, damping)) = self.law.engaged(length) else { return };
         if length > 0.0 {
-            let along = stretch.displacement / length;
-            visit(stretch.spring(along, self.law.stiffness, damping));
+            let along = deformation.displacement / length;
+            visit(deformation.spring(along, self.law.stiffness, damping));
         }
     }
 }
@@ -187,9 +187,9 @@ pub struct PointBushing {
 
 impl Element for PointBushing {
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
-        let stretch = self.pair.at(at);
-        let force = stretch.displacement * self.stiffness + stretch.rate * self.damping;
-        stretch.pull(force, wrenches);
+        let deformation = self.pair.at(at);
+        let force = deformation.displacement * self.stiffness + deformation.rate * self.damping;
+        deformation.pull(force, wrenches);
     }
 
     fn between(&self) -> Option<[End; 2]> {
@@ -197,9 +197,9 @@ impl Element for PointBushing {
     }
 
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
-        let stretch = self.pair.at(at);
+        let deformation = self.pair.at(at);
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-            visit(stretch.spring(axis, self.stiffness, self.damping));
+            visit(deformation.spring(axis, self.stiffness, self.damping));
         }
     }
 }
@@ -221,11 +221,11 @@ pub struct Revolute {
 
 impl Revolute {
     /// It acts on the first body where the second's point is.
-    fn at(&self, at: &Instant<'_>) -> Stretch {
+    fn at(&self, at: &Instant<'_>) -> Deformation {
         let (a, b) = (at.place(&self.pair.a), at.place(&self.pair.b));
         let displacement = b.position - a.position;
         let a = at.material(a.end, b.position);
-        Stretch { rate: b.velocity - a.velocity, a, b, displacement, line: None }
+        Deformation { rate: b.velocity - a.velocity, a, b, displacement, line: None }
     }
 
     fn levers(&self, at: &Instant<'_>) -> [Vector3<f64>; 2] {
@@ -243,10 +243,10 @@ impl Revolute {
 
 impl Element for Revolute {
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
-        let stretch = self.at(at);
-        let pull = stretch.displacement * self.stiffness + stretch.rate * self.damping;
+        let deformation = self.at(at);
+        let pull = deformation.displacement * self.stiffness + deformation.rate * self.damping;
         let along = |(n, part): (Vector3<f64>, f64)| n * (part * n.dot(&pull));
-        stretch.pull(self.directions(at).map(along).iter().sum(), wrenches);
+        deformation.pull(self.directions(at).map(along).iter().sum(), wrenches);
         let [a, b] = self.levers(at);
         let ends = self.pair.ends();
         let spin = at.spin(ends[1]) - at.spin(ends[0]);
@@ -261,10 +261,10 @@ impl Element for Revolute {
     }
 
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
-        let stretch = self.at(at);
+        let deformation = self.at(at);
         let directions = self.directions(at);
         for (direction, part) in directions {
-            visit(stretch.spring(direction, part * self.stiffness, part * self.damping));
+            visit(deformation.spring(direction, part * self.stiffness, part * self.damping));
         }
         let ends = self.pair.ends();
         let spin = at.spin(ends[1]) - at.spin(ends[0]);
@@ -299,24 +299,24 @@ pub struct Universal {
 
 impl Universal {
     /// \[m\] the axes' deviation from perpendicular, and its gradient for a rotation of the second body.
-    fn lean(&self, at: &Instant<'_>) -> (f64, Vector3<f64>) {
+    fn axis_error(&self, at: &Instant<'_>) -> (f64, Vector3<f64>) {
         let lever = at.to_world(self.pair.a.end, self.lever);
         let axis = at.to_world(self.pair.b.end, self.axis);
         (lever.dot(&axis), axis.cross(&lever))
     }
 
-    fn lean_rate(&self, at: &Instant<'_>, gradient: &Vector3<f64>) -> f64 {
+    fn axis_error_rate(&self, at: &Instant<'_>, gradient: &Vector3<f64>) -> f64 {
         gradient.dot(&(at.spin(self.pair.b.end) - at.spin(self.pair.a.end)))
     }
 }
 
 impl Element for Universal {
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
-        let stretch = self.pair.at(at);
-        let force = stretch.displacement * self.stiffness + stretch.rate * self.damping;
-        stretch.pull(force, wrenches);
-        let (lean, gradient) = self.lean(at);
-        let size = self.stiffness * lean + self.damping * self.lean_rate(at, &gradient);
+        let deformation = self.pair.at(at);
+        let force = deformation.displacement * self.stiffness + deformation.rate * self.damping;
+        deformation.pull(force, wrenches);
+        let (axis_error, gradient) = self.axis_error(at);
+        let size = self.stiffness * axis_error + self.damping * self.axis_error_rate(at, &gradient);
         turn(wrenches, self.pair.a.end, gradient * size);
         turn(wrenches, self.pair.b.end, -gradient * size);
     }
@@ -326,16 +326,16 @@ impl Element for Universal {
     }
 
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
-        let stretch = self.pair.at(at);
+        let deformation = self.pair.at(at);
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-            visit(stretch.spring(axis, self.stiffness, self.damping));
+            visit(deformation.spring(axis, self.stiffness, self.damping));
         }
-        let (_, gradient) = self.lean(at);
+        let (_, gradient) = self.axis_error(at);
         visit(Spring {
             ends: self.pair.ends(),
             direction: Vector3::zeros(),
             moments: [gradient; 2],
-            rate: self.lean_rate(at, &gradient),
+            rate: self.axis_error_rate(at, &gradient),
             stiffness: self.stiffness,
             damping: self.damping,
         });
@@ -358,17 +358,17 @@ impl PointOnLine {
 
 impl Element for PointOnLine {
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
-        let stretch = self.pair.at(at);
+        let deformation = self.pair.at(at);
         if self.is_isotropic() {
-            let damped = stretch.rate * self.law.damping;
-            stretch.pull(stretch.displacement * self.law.stiffness + damped, wrenches);
+            let damped = deformation.rate * self.law.damping;
+            deformation.pull(deformation.displacement * self.law.stiffness + damped, wrenches);
             return;
         }
-        let length = stretch.displacement.norm();
+        let length = deformation.displacement.norm();
         let Some((extension, damping)) = self.law.engaged(length) else { return };
-        let along = stretch.displacement.try_normalize(0.0).unwrap_or_default();
-        let damped = stretch.rate * damping;
-        stretch.pull(along * (self.law.stiffness * extension) + damped, wrenches);
+        let along = deformation.displacement.try_normalize(0.0).unwrap_or_default();
+        let damped = deformation.rate * damping;
+        deformation.pull(along * (self.law.stiffness * extension) + damped, wrenches);
     }
 
     fn between(&self) -> Option<[End; 2]> {
@@ -376,17 +376,17 @@ impl Element for PointOnLine {
     }
 
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
-        let stretch = self.pair.at(at);
-        let Some(line) = stretch.line else { return };
-        let length = stretch.displacement.norm();
+        let deformation = self.pair.at(at);
+        let Some(line) = deformation.line else { return };
+        let length = deformation.displacement.norm();
         let Some((_, damping)) = self.law.engaged(length) else { return };
-        let normal = match stretch.displacement.try_normalize(0.0) {
+        let normal = match deformation.displacement.try_normalize(0.0) {
             Some(along) if !self.is_isotropic() => along,
             _ => line.cross(&Vector3::ith(line.iamin(), 1.0)).normalize(),
         };
         let across = if self.is_isotropic() { self.law.stiffness } else { 0.0 };
-        visit(stretch.spring(normal, self.law.stiffness, damping));
-        visit(stretch.spring(line.cross(&normal), across, damping));
+        visit(deformation.spring(normal, self.law.stiffness, damping));
+        visit(deformation.spring(line.cross(&normal), across, damping));
     }
 }
 
@@ -409,7 +409,7 @@ pub struct TorsionSpring {
 }
 
 /// A torsion angle at an instant.
-pub struct Twist {
+pub struct TorsionAngle {
     /// \[rad\] since t = 0, including full revolutions.
     pub angle: f64,
     /// \[rad/s\].
@@ -421,25 +421,26 @@ pub struct Twist {
 impl TorsionSpring {
     /// The torsion angle: the swing–twist angle about the axis, on the revolution nearest to the last one.
     #[must_use]
-    pub fn twist(&self, at: &Instant<'_>) -> Twist {
+    pub fn torsion_angle(&self, at: &Instant<'_>) -> TorsionAngle {
         let [a, b] = self.ends;
         let since = at.orientation(a).inverse() * at.orientation(b) * self.reference;
         let (w, v) = (since.w, since.imag());
         let s = v.dot(&self.axis);
         let principal = 2.0 * s.atan2(w);
-        let angle = principal + TAU * ((at.twists[self.row] - principal) / TAU).round();
+        let angle = principal + TAU * ((at.torsion_angles[self.row] - principal) / TAU).round();
         let along = self.axis * (w * w) + v.cross(&self.axis) * w + v * s;
         let gradient = at.to_world(a, along / (w * w + s * s));
-        Twist { angle, rate: gradient.dot(&(at.spin(b) - at.spin(a))), gradient }
+        TorsionAngle { angle, rate: gradient.dot(&(at.spin(b) - at.spin(a))), gradient }
     }
 }
 
 impl Element for TorsionSpring {
     fn act(&self, at: &Instant<'_>, wrenches: &mut [Wrench]) {
-        let twist = self.twist(at);
-        let torque = self.preload - self.stiffness * twist.angle - self.damping * twist.rate;
-        turn(wrenches, self.ends[0], -twist.gradient * torque);
-        turn(wrenches, self.ends[1], twist.gradient * torque);
+        let torsion_angle = self.torsion_angle(at);
+        let torque =
+            self.preload - self.stiffness * torsion_angle.angle - self.damping * torsion_angle.rate;
+        turn(wrenches, self.ends[0], -torsion_angle.gradient * torque);
+        turn(wrenches, self.ends[1], torsion_angle.gradient * torque);
     }
 
     fn between(&self) -> Option<[End; 2]> {
@@ -447,12 +448,12 @@ impl Element for TorsionSpring {
     }
 
     fn springs(&self, at: &Instant<'_>, visit: &mut dyn FnMut(Spring)) {
-        let twist = self.twist(at);
+        let torsion_angle = self.torsion_angle(at);
         visit(Spring {
             ends: self.ends,
             direction: Vector3::zeros(),
-            moments: [twist.gradient; 2],
-            rate: twist.rate,
+            moments: [torsion_angle.gradient; 2],
+            rate: torsion_angle.rate,
             stiffness: self.stiffness,
             damping: self.damping,
         });

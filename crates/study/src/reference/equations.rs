@@ -37,7 +37,7 @@ impl<'m> Equations<'m> {
         let at = self.mechanism.at(&state, Clock::between(y[y.len() - 1], self.piece));
         let accelerations = self.mechanism.respond(&at);
         let (bodies, others) = derivative.split_at_mut(PER_BODY * state.bodies.len());
-        let (time, twists) = others.split_last_mut().expect("the time is a state");
+        let (time, torsion_angles) = others.split_last_mut().expect("the time is a state");
         *time = 1.0;
         let rows = bodies.chunks_exact_mut(PER_BODY).zip(y.chunks_exact(PER_BODY));
         for ((out, y), (body, acceleration)) in rows.zip(state.bodies.iter().zip(&accelerations)) {
@@ -45,7 +45,7 @@ impl<'m> Equations<'m> {
             let turning = q * Quaternion::from_imag(body.rate) * 0.5;
             write(out, &body.velocity, &turning, &acceleration.linear, &acceleration.angular);
         }
-        for (out, rate) in twists.iter_mut().zip(self.mechanism.twist_rates(&at)) {
+        for (out, rate) in torsion_angles.iter_mut().zip(self.mechanism.torsion_angle_rates(&at)) {
             *out = rate;
         }
     }
@@ -71,7 +71,7 @@ pub fn pack(state: &State, time: f64) -> Vec<f64> {
     for (out, body) in y.chunks_exact_mut(PER_BODY).zip(&state.bodies) {
         write(out, &body.position, &body.orientation, &body.velocity, &body.rate);
     }
-    y.extend(&state.twists);
+    y.extend(&state.torsion_angles);
     y.push(time);
     y
 }
@@ -82,7 +82,7 @@ pub fn pack(state: &State, time: f64) -> Vec<f64> {
 /// Where there are too few numbers for the bodies and the time.
 #[must_use]
 pub fn unpack(y: &[f64], bodies: usize) -> State {
-    let (bodies, twists) = y.split_at(PER_BODY * bodies);
+    let (bodies, torsion_angles) = y.split_at(PER_BODY * bodies);
     let body = |y: &[f64]| BodyState {
         position: Vector3::new(y[0], y[1], y[2]),
         orientation: UnitQuaternion::new_normalize(Quaternion::new(y[3], y[4], y[5], y[6])),
@@ -91,6 +91,6 @@ pub fn unpack(y: &[f64], bodies: usize) -> State {
     };
     State {
         bodies: bodies.chunks_exact(PER_BODY).map(body).collect(),
-        twists: twists[..twists.len() - 1].to_vec(),
+        torsion_angles: torsion_angles[..torsion_angles.len() - 1].to_vec(),
     }
 }

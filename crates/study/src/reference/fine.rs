@@ -10,8 +10,8 @@ use dbd_scene::Scene;
 
 use crate::reference::mechanism::Mechanism;
 use crate::reference::perturbed::{perturbation, perturbed as nearby};
+use crate::reference::reference_solution::{NoReferenceSolution, Opinion, integrate};
 use crate::reference::state::State;
-use crate::reference::truth::{NoTruth, Opinion, integrate};
 
 /// Steps of the reference solution per default step of leapfrog.
 const FINER: f64 = 32.0;
@@ -26,7 +26,7 @@ pub fn states(
     scene: &Scene,
     perturbed: bool,
     times: &[f64],
-) -> Result<Vec<State>, NoTruth> {
+) -> Result<Vec<State>, NoReferenceSolution> {
     if !dbd_scene::interactions(scene).is_empty() {
         return of_kernel(opinion, scene, perturbed, times);
     }
@@ -40,7 +40,7 @@ fn of_kernel(
     scene: &Scene,
     perturbed: bool,
     times: &[f64],
-) -> Result<Vec<State>, NoTruth> {
+) -> Result<Vec<State>, NoReferenceSolution> {
     let mut scene = scene.clone();
     if perturbed {
         // A perturbation leads out of a plane.
@@ -54,7 +54,7 @@ fn of_kernel(
     let limit = Frequencies::of(&scene).default_limit(&method, scene.duration) / finer;
     let interval = times.get(1).copied().unwrap_or(limit);
     let steps = (interval / limit).ceil().max(1.0) as u64;
-    let refuse = |time: f64, reason: String| NoTruth { time, reason };
+    let refuse = |time: f64, reason: String| NoReferenceSolution { time, reason };
     let mut plant = plant(&scene, &method, interval / steps as f64)
         .map_err(|error| refuse(0.0, error.to_string()))?;
     if perturbed {
@@ -95,7 +95,7 @@ mod tests {
              normal = [0, 0, 1]\nstiffness = 1e4\ndissipation = 0\n",
         );
         let times: Vec<f64> = (0..=50).map(|row| 0.005 * f64::from(row)).collect();
-        let truth = states(Opinion::Dop853, &scene, false, &times).unwrap();
+        let reference_solution = states(Opinion::Dop853, &scene, false, &times).unwrap();
         let second = states(Opinion::Verner98, &scene, false, &times).unwrap();
         let (g, omega) = (9.81, 100.0_f64);
         let fall = (2.0_f64 * 0.1 / g).sqrt();
@@ -114,12 +114,12 @@ mod tests {
             }
         };
         let metric = Metric::of(&Mechanism::of(&scene).0);
-        for ((time, state), other) in times.iter().zip(&truth).zip(&second) {
+        for ((time, state), other) in times.iter().zip(&reference_solution).zip(&second) {
             let off = (state.bodies[0].position.z - height(*time)).abs();
             let apart = metric.distance(state, other);
             assert!(off < 1e-5 && apart < 4e-5, "{time}: off by {off:e}, opinions by {apart:e}");
         }
-        assert!(truth.last().unwrap().bodies[0].position.z > 0.05);
+        assert!(reference_solution.last().unwrap().bodies[0].position.z > 0.05);
     }
 
     #[test]

@@ -66,7 +66,7 @@ pub struct Instant<'s> {
     /// The inputs' signals.
     pub signals: Vec<Signal>,
     /// \[rad\] last known torsion angles.
-    pub twists: &'s [f64],
+    pub torsion_angles: &'s [f64],
     state: &'s State,
     poses: Vec<Pose>,
     anchors: &'s [Vector3<f64>],
@@ -90,7 +90,7 @@ impl<'s> Instant<'s> {
             Pose { rotation, spin: rotation * body.rate }
         };
         let poses = state.bodies.iter().map(pose).collect();
-        Self { clock, signals, twists: &state.twists, state, poses, anchors }
+        Self { clock, signals, torsion_angles: &state.torsion_angles, state, poses, anchors }
     }
 
     /// \[rad/s\] the angular velocity of a body, body axes.

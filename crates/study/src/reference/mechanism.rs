@@ -167,8 +167,8 @@ impl Mechanism {
     }
 
     /// \[rad/s\] the rates of the torsion angles at an instant.
-    pub fn twist_rates(&self, at: &Instant<'_>) -> impl Iterator<Item = f64> {
-        self.torsions.iter().map(|spring| spring.twist(at).rate)
+    pub fn torsion_angle_rates(&self, at: &Instant<'_>) -> impl Iterator<Item = f64> {
+        self.torsions.iter().map(|spring| spring.torsion_angle(at).rate)
     }
 
     /// Updates the last known torsion angles to the pose.
@@ -177,8 +177,9 @@ impl Mechanism {
             return;
         }
         let at = self.at(state, Clock::at(0.0));
-        let twists = self.torsions.iter().map(|spring| spring.twist(&at).angle).collect();
-        state.twists = twists;
+        let torsion_angles =
+            self.torsions.iter().map(|spring| spring.torsion_angle(&at).angle).collect();
+        state.torsion_angles = torsion_angles;
     }
 }
 
@@ -193,7 +194,7 @@ fn end(body: BodyIndex) -> End {
 /// The points of element `i` of a group: a spring triple has one point on its first body; the second body's points
 /// follow all of them, once or once per triple.
 fn pair<T: Terms<F64>>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) -> Pair {
-    let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
+    let (triples, arms) = (usize::from(group.triples), usize::from(group.arms));
     let first = usize::from(group.point);
     let tip = if group.shared { i % arms } else { i };
     let local = |row: usize| Vector3::from(model.points[row].to_f64());
@@ -201,7 +202,7 @@ fn pair<T: Terms<F64>>(model: &ModelRef<'_, F64, T>, group: &Group, i: usize) ->
         .then(|| Vector3::from(model.lines[usize::from(group.element) + i].direction.to_f64()));
     Pair {
         a: Point { end: end(group.a), local: local(first + i / arms) },
-        b: Point { end: end(group.b), local: local(first + stars + tip) },
+        b: Point { end: end(group.b), local: local(first + triples + tip) },
         line,
     }
 }

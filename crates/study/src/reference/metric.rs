@@ -42,10 +42,14 @@ impl Metric {
     /// \[m\] the root mean square over samples of the distance of a run from the reference solution; infinite if the
     /// run lacks samples or is not finite.
     #[must_use]
-    pub fn error(&self, truth: &[State], run: &[State]) -> f64 {
-        let squares = truth.iter().zip(run).map(|(a, b)| self.distance(a, b).powi(2));
-        let mean = squares.sum::<f64>() / truth.len().max(1) as f64;
-        if run.len() == truth.len() && mean.is_finite() { mean.sqrt() } else { f64::INFINITY }
+    pub fn error(&self, reference_solution: &[State], run: &[State]) -> f64 {
+        let squares = reference_solution.iter().zip(run).map(|(a, b)| self.distance(a, b).powi(2));
+        let mean = squares.sum::<f64>() / reference_solution.len().max(1) as f64;
+        if run.len() == reference_solution.len() && mean.is_finite() {
+            mean.sqrt()
+        } else {
+            f64::INFINITY
+        }
     }
 }
 
@@ -76,7 +80,8 @@ mod tests {
     fn a_turn_counts_with_the_radius_of_gyration() {
         // 2 kg at a distance of 3 m and 4 m.
         let metric = Metric { squares: vec![9.0, 16.0] };
-        let pose = |bodies: &[BodyState]| State { bodies: bodies.to_vec(), twists: Vec::new() };
+        let pose =
+            |bodies: &[BodyState]| State { bodies: bodies.to_vec(), torsion_angles: Vec::new() };
         let still = body(Vector3::zeros(), Vector3::zeros());
         let turned = |angle: f64| body(Vector3::zeros(), Vector3::y() * angle);
         let far = metric.distance(&pose(&[still, still]), &pose(&[turned(1e-9), still]));
@@ -85,9 +90,9 @@ mod tests {
         let far = metric.distance(&pose(&[still, still]), &pose(&[still, moved]));
         assert!((far - ((0.25 + 0.01 * 16.0) / 2.0_f64).sqrt()).abs() < 1e-12);
         assert!(metric.distance(&pose(&[still]), &pose(&[turned(std::f64::consts::TAU)])) < 1e-12);
-        let truth = vec![pose(&[still, still]); 2];
+        let reference_solution = vec![pose(&[still, still]); 2];
         let run = vec![pose(&[still, still]), pose(&[still, moved])];
-        assert!((metric.error(&truth, &run) * 2_f64.sqrt() / far - 1.0).abs() < 1e-12);
-        assert!(metric.error(&truth, &run[..1]).is_infinite());
+        assert!((metric.error(&reference_solution, &run) * 2_f64.sqrt() / far - 1.0).abs() < 1e-12);
+        assert!(metric.error(&reference_solution, &run[..1]).is_infinite());
     }
 }

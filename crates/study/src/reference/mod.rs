@@ -13,7 +13,7 @@
 //! - [`ordering`], `blocks`: a sparse matrix of a block per pair of bodies, and its elimination.
 //! - [`implicit`], [`generalized_alpha`]: linearly implicit Euler and generalised-α, one sparse solve per step.
 //! - [`spectrum`]: all eigenfrequencies of a pose.
-//! - [`equations`], [`truth`]: the mechanism as a first-order system; DOP853 with a second opinion.
+//! - [`equations`], [`reference_solution`]: the mechanism as a first-order system; DOP853 with a second opinion.
 //! - [`perturbed`](mod@perturbed), [`fine`]: a state nearby; the reference solution of any scene.
 //! - [`metric`], [`trajectory`]: distance of a run from the reference solution.
 //! - [`window`]: how long a trajectory stays close to a perturbed one.
@@ -31,11 +31,11 @@ pub mod metric;
 pub mod naive;
 pub mod ordering;
 pub mod perturbed;
+pub mod reference_solution;
 pub mod signals;
 pub mod spectrum;
 pub mod state;
 pub mod trajectory;
-pub mod truth;
 pub mod window;
 
 pub(crate) use blocks::BlockMatrix;

@@ -27,7 +27,7 @@ pub struct State {
     /// One per body.
     pub bodies: Vec<BodyState>,
     /// \[rad\] one per torsion spring, within half a revolution of its angle.
-    pub twists: Vec<f64>,
+    pub torsion_angles: Vec<f64>,
 }
 
 impl BodyState {
@@ -47,7 +47,12 @@ impl State {
     pub fn of<M: ModelOwner<Precision = F64>>(state: &KernelState<M>) -> Self {
         Self {
             bodies: state.bodies.as_ref().iter().map(BodyState::of).collect(),
-            twists: state.turns.as_ref().iter().map(|turns| TAU * f64::from(*turns)).collect(),
+            torsion_angles: state
+                .turns
+                .as_ref()
+                .iter()
+                .map(|turns| TAU * f64::from(*turns))
+                .collect(),
         }
     }
 

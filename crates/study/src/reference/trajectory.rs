@@ -11,8 +11,8 @@ use nalgebra::Vector3;
 use crate::reference::fine::states;
 use crate::reference::mechanism::Mechanism;
 use crate::reference::metric::distance;
+use crate::reference::reference_solution::{NoReferenceSolution, Opinion, integrate};
 use crate::reference::state::State;
-use crate::reference::truth::{NoTruth, Opinion, integrate};
 
 /// The positions of all bodies \[m\] at one time.
 pub type Positions = Vec<Vector3<f64>>;
@@ -39,7 +39,11 @@ impl Trajectory {
     ///
     /// # Errors
     /// If an integrator fails.
-    pub fn truth(scene: &Scene, window: f64, samples: u32) -> Result<Self, NoTruth> {
+    pub fn reference_solution(
+        scene: &Scene,
+        window: f64,
+        samples: u32,
+    ) -> Result<Self, NoReferenceSolution> {
         let times = sample_times(window, samples);
         let [states, second] = [Opinion::Dop853, Opinion::Verner98]
             .map(|opinion| states(opinion, scene, false, &times));
@@ -50,11 +54,11 @@ impl Trajectory {
     ///
     /// # Errors
     /// If an integrator fails.
-    pub fn truth_of(
+    pub fn reference_solution_of(
         mechanism: &Mechanism,
         start: &State,
         times: Vec<f64>,
-    ) -> Result<Self, NoTruth> {
+    ) -> Result<Self, NoReferenceSolution> {
         let states = integrate(Opinion::Dop853, mechanism, start, &times)?;
         let second = integrate(Opinion::Verner98, mechanism, start, &times)?;
         Ok(Self::of(times, states, &second))

@@ -10,9 +10,9 @@ use dbd_scene::Scene;
 
 use crate::reference::fine::states;
 use crate::reference::metric::distance;
+use crate::reference::reference_solution::{NoReferenceSolution, Opinion};
 use crate::reference::state::State;
 use crate::reference::trajectory::sample_times;
-use crate::reference::truth::{NoTruth, Opinion};
 
 /// Default growth up to which a trajectory is compared: an error at the start of the window weighs a thousand times one
 /// at its end.
@@ -38,13 +38,13 @@ pub fn before_chaos(
     longest: f64,
     samples: u32,
     factor: f64,
-) -> Result<Window, NoTruth> {
+) -> Result<Window, NoReferenceSolution> {
     let mut times = sample_times(longest, samples);
-    let both = |times: &[f64]| -> Result<_, NoTruth> {
+    let both = |times: &[f64]| -> Result<_, NoReferenceSolution> {
         let of = |perturbed| states(Opinion::Dop853, scene, perturbed, times);
         Ok((of(false)?, of(true)?))
     };
-    let (truth, other) = loop {
+    let (reference_solution, other) = loop {
         match both(&times) {
             Ok(both) => break both,
             Err(why) => {
@@ -58,7 +58,7 @@ pub fn before_chaos(
         }
     };
     let apart = |(a, b): (&State, &State)| distance(&a.positions(), &b.positions());
-    let distances: Vec<f64> = truth.iter().zip(&other).map(apart).collect();
+    let distances: Vec<f64> = reference_solution.iter().zip(&other).map(apart).collect();
     let growth: Vec<f64> = distances.iter().map(|d| d / distances[0]).collect();
     let beyond = growth.iter().position(|growth| *growth > factor).unwrap_or(times.len());
     Ok(Window { end: times[beyond.saturating_sub(1)], times, growth })

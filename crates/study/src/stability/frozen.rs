@@ -46,7 +46,7 @@ pub fn frozen(model: &SceneModel<F64>, state: &State<SceneModel<F64>>) -> SceneM
 fn settle_anchors(model: &mut SceneModel<F64>, row: usize, state: &State<SceneModel<F64>>) {
     let group = &mut model.groups[row];
     let first = usize::from(group.point);
-    let middle = first + usize::from(group.stars);
+    let middle = first + usize::from(group.triples);
     let end = first + group.points();
     for (body, points) in [(&mut group.a, first..middle), (&mut group.b, middle..end)] {
         let Some(input) = body.anchor_row() else { continue };
@@ -83,9 +83,9 @@ impl Axes<'_> {
 /// Gives element `i` of a group its present length; without a length, its second point is moved to the rest position.
 fn relax(model: &mut SceneModel<F64>, row: usize, i: usize) {
     let group = &model.groups[row];
-    let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
+    let (triples, arms) = (usize::from(group.triples), usize::from(group.arms));
     let first = usize::from(group.point);
-    let tip = first + stars + if group.shared { i % arms } else { i };
+    let tip = first + triples + if group.shared { i % arms } else { i };
     let [a, b] = [group.a, group.b].map(|body| Axes(model.initial.get(body.row())));
     let from = a.place(model.points[first + i / arms]);
     let d = b.place(model.points[tip]) - from;

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use dbd_plant::{
-    DampingName, MOST_RHO, Method, MethodError, Named, OrientationName, PrecisionName, SchemeName,
+    DampingName, MAX_RHO, Method, MethodError, Named, OrientationName, PrecisionName, SchemeName,
 };
 use dbd_scene::nearest;
 
@@ -62,9 +62,9 @@ impl Target {
                 return (!fits).then(|| format!("a whole number from 0, or \"{OWN}\""));
             }
             Self::Rho => {
-                let range = 0.0..=MOST_RHO;
+                let range = 0.0..=MAX_RHO;
                 let fits = cell == OWN || cell.parse().is_ok_and(|rho: f64| range.contains(&rho));
-                return (!fits).then(|| format!("a number from 0 to {MOST_RHO}, or \"{OWN}\""));
+                return (!fits).then(|| format!("a number from 0 to {MAX_RHO}, or \"{OWN}\""));
             }
             Self::Scheme => names::<SchemeName>(&[]),
             Self::Damping => names::<DampingName>(&[OWN]),

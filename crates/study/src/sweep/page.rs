@@ -38,11 +38,11 @@ pub struct Page<'p> {
 }
 
 /// Figures of a page at most.
-const MOST_FIGURES: usize = 24;
+const MAX_FIGURES: usize = 24;
 /// Maximum number of values of an axis with separate curves.
 const FAMILY: usize = 6;
 /// Cases that did not come to their end, of which the page has the words.
-const MOST_WORDS: usize = 20;
+const MAX_WORDS: usize = 20;
 
 const HALF: (f64, f64) = (490.0, 300.0);
 const WIDE: (f64, f64) = (1000.0, 340.0);
@@ -83,7 +83,7 @@ fn failures(text: &mut String, table: &Table) {
          drawings.</p>\n<table>\n",
         table.rows.len()
     );
-    for row in failed().take(MOST_WORDS) {
+    for row in failed().take(MAX_WORDS) {
         let values = table.header[1..table.axes].iter().zip(&row[1..]);
         let values: Vec<String> = values.map(|(axis, cell)| format!("{axis} = {cell}")).collect();
         let _ = writeln!(
@@ -95,8 +95,8 @@ fn failures(text: &mut String, table: &Table) {
         );
     }
     text.push_str("</table>\n");
-    if count > MOST_WORDS {
-        let _ = writeln!(text, "<p>… and {} more.</p>", count - MOST_WORDS);
+    if count > MAX_WORDS {
+        let _ = writeln!(text, "<p>… and {} more.</p>", count - MAX_WORDS);
     }
 }
 
@@ -178,8 +178,8 @@ fn figures(text: &mut String, page: &Page<'_>) {
     if figures.is_empty() {
         return;
     }
-    let left_out = figures.len().saturating_sub(MOST_FIGURES);
-    figures.truncate(MOST_FIGURES);
+    let left_out = figures.len().saturating_sub(MAX_FIGURES);
+    figures.truncate(MAX_FIGURES);
     let wide = figures.len() == 1;
     let _ = writeln!(text, "<h2>Figures</h2>\n<div class=\"{}\">", if wide { "" } else { "grid" });
     for figure in figures {

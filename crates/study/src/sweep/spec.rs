@@ -20,7 +20,7 @@ use crate::sweep::text::{array, only, parse, string, whole, wrong_type};
 use crate::sweep::value::Value;
 
 /// More cases than this are refused.
-pub const MOST_CASES: u64 = 1_000_000;
+pub const MAX_CASES: u64 = 1_000_000;
 
 const KEYS: [&str; 15] = [
     "scene",
@@ -110,7 +110,7 @@ impl Spec {
                     let expected = "a table [axes] of the varied quantities and their values";
                     return Err(wrong_type(&source, value, "`axes`", expected));
                 };
-                let most = MOST_CASES;
+                let most = MAX_CASES;
                 Axes { source: &source, sample, most }.read(of_axes, None, &mut axes)?;
             }
             None => {
@@ -147,9 +147,9 @@ impl Spec {
             sample,
         };
         let cases = spec.count();
-        if cases > u128::from(MOST_CASES) {
+        if cases > u128::from(MAX_CASES) {
             let place = table.get("axes").map_or(whole_file, Spanned::span);
-            return Err(too_many(&source, place, cases, MOST_CASES));
+            return Err(too_many(&source, place, cases, MAX_CASES));
         }
         Ok(spec)
     }
@@ -229,8 +229,8 @@ fn read_sample(source: &Source, value: &Spanned<DeValue<'_>>) -> Result<Sample, 
     if number == 0 {
         return Err(source.refuse(count.span(), "the sample has no cases", "give 1 case or more"));
     }
-    if number > MOST_CASES {
-        return Err(too_many(source, count.span(), u128::from(number), MOST_CASES));
+    if number > MAX_CASES {
+        return Err(too_many(source, count.span(), u128::from(number), MAX_CASES));
     }
     let seed = whole(source, get("seed")?, "`seed` of `sample`", "a whole number from 0")?;
     Ok(Sample { kind, count: number as usize, seed })

@@ -37,7 +37,7 @@ pub mod timer {
     /// Write 1: the interrupt is served.
     pub const INTERRUPT_CLEAR: usize = 0xc;
     /// The longest period in clock ticks.
-    pub const MOST_PERIOD: u32 = u32::MAX;
+    pub const MAX_PERIOD: u32 = u32::MAX;
 }
 
 /// Registers of the CMSDK APB UART and their bits.

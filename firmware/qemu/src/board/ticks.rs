@@ -8,7 +8,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 use super::addresses::CLOCK_HZ;
 use super::addresses::timer::{
-    CTRL, CTRL_ENABLE, CTRL_INTERRUPT, INTERRUPT_CLEAR, MOST_PERIOD, RELOAD, VALUE,
+    CTRL, CTRL_ENABLE, CTRL_INTERRUPT, INTERRUPT_CLEAR, MAX_PERIOD, RELOAD, VALUE,
 };
 use super::registers::Registers;
 
@@ -31,7 +31,7 @@ impl<'d, R: Registers> Ticks<'d, R> {
     /// Starts to tick every `period` microseconds, at least 1 and at most 171 s. `due` is what the
     /// timer's interrupt counts up.
     pub fn start(mut registers: R, period: u32, due: &'d AtomicU32) -> Self {
-        let period = period.clamp(1, MOST_PERIOD / PER_MICROSECOND) * PER_MICROSECOND;
+        let period = period.clamp(1, MAX_PERIOD / PER_MICROSECOND) * PER_MICROSECOND;
         registers.write(CTRL, 0);
         registers.write(INTERRUPT_CLEAR, 1);
         // The counter passes 0, too.

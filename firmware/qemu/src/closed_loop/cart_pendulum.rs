@@ -63,7 +63,7 @@ pub fn balanced<M: Machine<Real = f32, Precision = F32>>(
     ticks(&mut || {
         node.advance(STEPS).map_err(LoopError::Plant)?;
         let seen = controller.tick().map_err(LoopError::Control)?;
-        let sample = Sample::of([seen.cart, seen.lean, seen.force]);
+        let sample = Sample::of([seen.cart, seen.axis_error, seen.force]);
         Ok((sample, hash(node.machine())))
     })
 }

@@ -3,7 +3,7 @@
 //! `(cart's and pendulum's counts) => duty and direction, once per millisecond`. The gains are the linear
 //! regulator of the ideal cart and pendulum for weights 20, 50, 1, 1 on position, angle and their
 //! rates and 0.05 on the force; the rates are filtered differences. The motor's back-EMF is added to
-//! the voltage. Where the pendulum leans further than [`Constants::most_lean`] the motor is off.
+//! the voltage. Where the pendulum leans further than [`Constants::most_axis_error`] the motor is off.
 
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::OutputPin;
@@ -30,7 +30,7 @@ pub struct Constants {
     /// \[N·s/m\] reduction of the force by the back-EMF.
     pub back_emf: f32,
     /// \[rad\] beyond it the motor is off.
-    pub most_lean: f32,
+    pub most_axis_error: f32,
 }
 
 impl Constants {
@@ -41,7 +41,7 @@ impl Constants {
         gains: [-20.0, 88.97, -18.33, 17.54],
         full_force: 20.68,
         back_emf: 7.725,
-        most_lean: 0.5,
+        most_axis_error: 0.5,
     };
 }
 
@@ -51,7 +51,7 @@ pub struct Seen {
     /// \[m\] the cart from where it started.
     pub cart: f32,
     /// \[rad\] the pendulum from upright.
-    pub lean: f32,
+    pub axis_error: f32,
     /// \[N\] the force that was asked for.
     pub force: f32,
 }
@@ -93,16 +93,17 @@ impl<C: SpiDevice, A: SpiDevice, P: SetDutyCycle, D: OutputPin> Balance<C, A, P,
         let cart = counts.wrapping_sub(start) as f32 * (constants.cart_turn / COUNTS as f32);
         // Within half a turn of upright.
         let off = (angle.wrapping_sub(constants.upright) << 18) >> 18;
-        let lean = off as f32 * (core::f32::consts::TAU / COUNTS as f32);
-        let [cart_rate, lean_rate] = &mut self.rates;
-        let [speed, spin] = [cart_rate.next(cart), lean_rate.next(lean)];
-        let [on_cart, on_lean, on_speed, on_spin] = constants.gains;
-        let force = -(on_cart * cart + on_lean * lean + on_speed * speed + on_spin * spin);
-        let up = lean < constants.most_lean && lean > -constants.most_lean;
+        let axis_error = off as f32 * (core::f32::consts::TAU / COUNTS as f32);
+        let [cart_rate, axis_error_rate] = &mut self.rates;
+        let [speed, spin] = [cart_rate.next(cart), axis_error_rate.next(axis_error)];
+        let [on_cart, on_axis_error, on_speed, on_spin] = constants.gains;
+        let force =
+            -(on_cart * cart + on_axis_error * axis_error + on_speed * speed + on_spin * spin);
+        let up = axis_error < constants.most_axis_error && axis_error > -constants.most_axis_error;
         let force = if up { force } else { 0.0 };
         let drive = if up { force + constants.back_emf * speed } else { 0.0 };
         self.motor.set(drive / constants.full_force)?;
-        Ok(Seen { cart, lean, force })
+        Ok(Seen { cart, axis_error, force })
     }
 
     /// Ticks, at the pace of a delay; what `look` sees of each.

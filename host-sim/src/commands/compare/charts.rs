@@ -3,7 +3,7 @@
 //! `names, rows => charts with a limited number of values`. Of many bodies those with the largest displacement are
 //! drawn.
 
-use dbd_report::curves::{Curves, FEWEST_POINTS, MOST_POINTS};
+use dbd_report::curves::{Curves, FEWEST_POINTS, MAX_POINTS};
 use dbd_report::data::{Chart, Line, Section, Thinned};
 use dbd_report::packed::{F32s, F64s};
 
@@ -11,7 +11,7 @@ use dbd_report::packed::{F32s, F64s};
 const ROOM: usize = 60_000;
 
 /// Largest number of drawn bodies.
-const MOST_BODIES: usize = 40;
+const MAX_BODIES: usize = 40;
 
 /// Charts without values.
 #[derive(Clone, Debug, Default)]
@@ -93,13 +93,13 @@ impl ChartList {
             placed.push((chart, lines));
         }
         bodies.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let left_out = bodies.split_off(bodies.len().min(MOST_BODIES));
+        let left_out = bodies.split_off(bodies.len().min(MAX_BODIES));
         let drawn = |chart: &Chart| !left_out.iter().any(|(body, _)| chart.body == Some(*body));
         placed.retain(|(chart, _)| drawn(chart));
         let moves = |line: &usize| curves.extents()[*line].range() > 0.0;
         let chosen: Vec<usize> =
             placed.iter().flat_map(|(_, lines)| lines.clone().filter(moves)).collect();
-        let points = (ROOM / chosen.len().max(1)).clamp(FEWEST_POINTS, MOST_POINTS);
+        let points = (ROOM / chosen.len().max(1)).clamp(FEWEST_POINTS, MAX_POINTS);
         let all = curves.drawn(&chosen, points);
         let mut values = all.lines.into_iter();
         let charts = placed.into_iter().map(|(mut chart, lines)| {

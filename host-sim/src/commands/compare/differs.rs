@@ -94,11 +94,11 @@ pub fn grouped(all: Vec<Differs>) -> Vec<Differs> {
             None => groups.push((one, 0)),
         }
     }
-    let told = groups.into_iter().map(|(one, more)| match more {
+    let reported = groups.into_iter().map(|(one, more)| match more {
         0 => one,
         more => Differs { what: format!("{} and {more} more", one.what), ..one },
     });
-    told.collect()
+    reported.collect()
 }
 
 impl Differs {
@@ -128,7 +128,7 @@ mod tests {
             set("set joint.c.damping", "2"),
             set("step", "2"),
         ];
-        let told: Vec<String> = grouped(all).into_iter().map(|one| one.what).collect();
+        let reported: Vec<String> = grouped(all).into_iter().map(|one| one.what).collect();
         let wanted = [
             "scheme",
             "set joint.a.stiffness and 1 more",
@@ -136,6 +136,6 @@ mod tests {
             "set joint.c.damping",
             "step",
         ];
-        assert_eq!(told, wanted);
+        assert_eq!(reported, wanted);
     }
 }

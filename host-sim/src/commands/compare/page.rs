@@ -23,7 +23,7 @@ use crate::comparison::pairing::Pairing;
 use crate::recorded::{Head, Recorded, Row, Unreadable};
 
 /// Largest number of bodies in a still picture.
-const MOST_PICTURED: usize = 500;
+const MAX_PICTURED: usize = 500;
 
 /// Longest description of two runs in a title.
 const LONGEST_TITLE: usize = 60;
@@ -144,7 +144,7 @@ pub fn page(
     let name =
         if a.scene == b.scene { a.scene.clone() } else { format!("{} and {}", a.scene, b.scene) };
     let picture =
-        scenes.iter().flatten().next().filter(|scene| scene.body_names.len() <= MOST_PICTURED);
+        scenes.iter().flatten().next().filter(|scene| scene.body_names.len() <= MAX_PICTURED);
     let data = Data {
         format: FORMAT,
         kind: Kind::Compare,

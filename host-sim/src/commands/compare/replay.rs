@@ -4,7 +4,7 @@
 //! input, its value follows from the time; forces follow from poses and velocities.
 
 use dbd_kernel::{BodyState, Energy, F64, State};
-use dbd_plant::judge::Judge;
+use dbd_plant::monitor::Monitor;
 use dbd_plant::plan::Plan;
 use dbd_plant::{
     AnyPlant, DampingName, Method, Named as _, OrientationName, PlantError, PrecisionName,
@@ -34,7 +34,7 @@ pub fn of_scene(
         Ok(begun) => begun,
         Err(why) => return Ok(Err(why.to_string())),
     };
-    let mut judge = Judge::new(scene, plant.as_ref());
+    let mut monitor = Monitor::new(scene, plant.as_ref());
     let initial = plant.state();
     let readings = scene.readouts.iter().map(|readout| readout.columns.len()).sum::<usize>();
     let missing = vec![f64::NAN; readings];
@@ -45,7 +45,7 @@ pub fn of_scene(
             Ok(()) => plant.state(),
             Err(_) => state,
         };
-        let judged = judge.judge(&state);
+        let judged = monitor.monitor(&state);
         let energy = match (row.energies, judged) {
             (Some([kinetic, potential, _]), _) => {
                 Energy { kinetic, gravity: potential, ..Energy::default() }
@@ -54,7 +54,7 @@ pub fn of_scene(
             (None, Err(_)) => Energy::default(),
         };
         let readings = if row.values.len() == readings { &row.values } else { &missing };
-        let extensions = judge.extensions();
+        let extensions = monitor.extensions();
         recording.push(&Sample { time: row.time, state: &state, readings, energy, extensions });
     }
     Ok(Ok(recording.finish().run))

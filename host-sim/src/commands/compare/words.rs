@@ -9,7 +9,7 @@ use crate::recorded::Kind;
 use crate::terminal::Look;
 
 /// Longest list of names.
-const MOST_NAMES: usize = 8;
+const MAX_NAMES: usize = 8;
 
 /// The properties of a run in a line.
 #[must_use]
@@ -104,9 +104,9 @@ fn finer(comparison: &Comparison) -> Option<String> {
 }
 
 fn list(names: &[String]) -> String {
-    let shown = names.iter().take(MOST_NAMES).map(|name| format!("`{name}`")).collect::<Vec<_>>();
-    match names.len() > MOST_NAMES {
-        true => format!("{} and {} more", shown.join(", "), names.len() - MOST_NAMES),
+    let shown = names.iter().take(MAX_NAMES).map(|name| format!("`{name}`")).collect::<Vec<_>>();
+    match names.len() > MAX_NAMES {
+        true => format!("{} and {} more", shown.join(", "), names.len() - MAX_NAMES),
         false => shown.join(", "),
     }
 }

@@ -38,7 +38,7 @@ const AS_ACCURATE: f64 = 1.25;
 const NEGLIGIBLE: f64 = 1e-9;
 
 /// Largest number of steps checked for lost motion.
-const MOST_STEPS: u64 = 1_000_000;
+const MAX_STEPS: u64 = 1_000_000;
 
 /// What is asked for.
 #[derive(Clone, Debug, Default, Args)]
@@ -215,7 +215,7 @@ fn loses(scene: &Scene, method: &Method, step: f64) -> Result<Option<String>, Pl
     check(scene, method, step)?;
     let mut plant = plant(scene, method, step)?;
     let Some(mut watch) = RoundingWatch::new(plant.as_ref()) else { return Ok(None) };
-    let steps = ((scene.duration / step).round() as u64).clamp(1, MOST_STEPS);
+    let steps = ((scene.duration / step).round() as u64).clamp(1, MAX_STEPS);
     for _ in 0..steps {
         if !plant.advance(1).is_running() {
             return Ok(None);

@@ -16,7 +16,7 @@ use super::{NewError, Place, PlantArguments};
 use crate::terminal::Found;
 
 /// Most steps of the golden run: a second or two in QEMU.
-const MOST_STEPS: u64 = 10_000;
+const MAX_STEPS: u64 = 10_000;
 
 /// The package of the kernel's own laws.
 const KERNEL: &str = "dbd-kernel";
@@ -50,7 +50,7 @@ impl<'f> Planted<'f> {
         let dependencies = Dependencies::of(&arguments.dependencies)?;
         let scene = &found.scene;
         let choice = Choice::of(scene, &arguments.choice)?;
-        let steps = ((scene.duration / choice.step).round() as u64).clamp(1, MOST_STEPS);
+        let steps = ((scene.duration / choice.step).round() as u64).clamp(1, MAX_STEPS);
         let golden = golden(scene, &choice, steps)?;
         let stem = plain(&found.file.stem);
         let file = format!("scenes/{stem}.toml");

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use dbd_plant::instance::Settings;
 use dbd_play::page::{MODULE, Page, SceneText, html};
-use dbd_play::session::{Change, MOST_TEXT, Session, Set};
+use dbd_play::session::{Change, MAX_TEXT, Session, Set};
 use dbd_report::output::file::write_at;
 use dbd_scene::file::read;
 use miette::Diagnostic;
@@ -33,7 +33,7 @@ pub enum PlayError {
     #[error("`{0}` is not a change of a number")]
     Change(String),
     /// A text is too long for a page.
-    #[error("the text of scene `{scene}` has {bytes} bytes, a page accepts at most {MOST_TEXT}")]
+    #[error("the text of scene `{scene}` has {bytes} bytes, a page accepts at most {MAX_TEXT}")]
     Long {
         /// Its name.
         scene: String,
@@ -123,7 +123,7 @@ pub fn page(asked: Asked<'_>) -> Result<Page, PlayError> {
     let set = numbers(changes)?;
     let mut texts = Vec::new();
     for found in scenes {
-        if found.text.len() > MOST_TEXT {
+        if found.text.len() > MAX_TEXT {
             return Err(PlayError::Long { scene: found.scene.name, bytes: found.text.len() });
         }
         let file = format!("{}.toml", found.file.stem);

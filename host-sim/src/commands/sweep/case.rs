@@ -121,8 +121,9 @@ impl Case {
     fn row(&self, ending: &Ending, recorder: Recorder) -> Row {
         let Self { scene, plan, .. } = self;
         let Recorder { figures, statistics, .. } = recorder;
-        let failure =
-            ending.trouble.map(|trouble| FailedRun::untried(scene, plan, ending.steps, trouble));
+        let failure = ending
+            .run_failure
+            .map(|run_failure| FailedRun::untried(scene, plan, ending.steps, run_failure));
         let time = match &failure {
             Some(failure) => failure.time,
             None => plan.duration,

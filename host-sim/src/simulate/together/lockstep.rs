@@ -182,7 +182,7 @@ mod tests {
                     assert_eq!(Ending { wall: own.wall, losses, ..ending }, own);
                     assert_eq!(seen[row], alone);
                 }
-                assert_eq!(own.trouble.is_some(), row == 2, "{own:?}");
+                assert_eq!(own.run_failure.is_some(), row == 2, "{own:?}");
             }
         }
     }

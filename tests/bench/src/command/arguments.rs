@@ -20,7 +20,7 @@ pub struct BenchArguments {
         long,
         value_name = "LINKS",
         value_delimiter = ',',
-        value_parser = RangedU64ValueParser::<usize>::new().range(1..=chain::MOST as u64)
+        value_parser = RangedU64ValueParser::<usize>::new().range(1..=chain::MAX as u64)
     )]
     pub chains: Option<Vec<usize>>,
     /// Rounds in which each way is measured once

@@ -60,11 +60,11 @@ impl Outcome {
         ];
         let title =
             format!("\nensembles of {}, beside the same instances one by one\n", first.name);
-        let told = look.table(&[
+        let reported = look.table(&[
             ("over one thread", "what threads bring the ensemble, the median of the rounds' ratios".to_owned()),
             ("one by one", "what they bring the instances by themselves, which share nothing: less where the cores have other work".to_owned()),
         ]);
-        title + &look.columns(Some(head), &lines) + "\n" + &told
+        title + &look.columns(Some(head), &lines) + "\n" + &reported
     }
 
     fn fitted(&self, look: Look) -> String {

@@ -15,7 +15,7 @@ pub type End = Option<usize>;
 
 /// How a spring pulls.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stretch {
+pub enum Deformation {
     /// Along the line between its points, beyond its free length \[m\].
     Length(f64),
     /// In every direction.
@@ -32,7 +32,7 @@ pub struct Spring {
     /// \[m\] its points in their axes.
     pub points: [Vector; 2],
     /// How it pulls.
-    pub stretch: Stretch,
+    pub deformation: Deformation,
     /// \[N/m\].
     pub stiffness: f64,
     /// \[N·s/m\].
@@ -75,7 +75,7 @@ impl Spring {
         let (to, arm_b) = place(bodies, b, self.points[1]);
         let mut away = difference(to, from);
         let mut line = None;
-        if let Stretch::Across(direction, _) = self.stretch {
+        if let Deformation::Across(direction, _) = self.deformation {
             let direction = a.map_or(direction, |row| turned(&bodies[row].rotation, direction));
             let slide = scaled(direction, dot(away, direction));
             away = difference(away, slide);
@@ -91,8 +91,8 @@ impl Spring {
                 rate = difference(rate, scaled(line, dot(rate, line)));
             }
         }
-        let force = match self.stretch {
-            Stretch::Length(free) => {
+        let force = match self.deformation {
+            Deformation::Length(free) => {
                 let length = dot(away, away).sqrt();
                 if length == 0.0 {
                     return;
@@ -101,7 +101,7 @@ impl Spring {
                 let tension = self.stiffness * (length - free) + self.damping * dot(along, rate);
                 scaled(along, tension)
             }
-            Stretch::Across(_, free) if free != 0.0 => {
+            Deformation::Across(_, free) if free != 0.0 => {
                 let length = dot(away, away).sqrt();
                 if length == 0.0 {
                     return;
@@ -109,7 +109,7 @@ impl Spring {
                 let pull = scaled(away, self.stiffness * (length - free) / length);
                 sum(pull, scaled(rate, self.damping))
             }
-            Stretch::Anywhere | Stretch::Across(..) => {
+            Deformation::Anywhere | Deformation::Across(..) => {
                 sum(scaled(away, self.stiffness), scaled(rate, self.damping))
             }
         };
@@ -134,7 +134,7 @@ pub struct Torsion {
     /// \[N·m\] torque on the second body at twist 0.
     pub preload: f64,
     /// \[rad\] the last known twist.
-    pub twist: f64,
+    pub torsion_angle: f64,
 }
 
 impl Torsion {
@@ -149,13 +149,13 @@ impl Torsion {
         let v = [x, y, z];
         let s = dot(v, self.axis);
         let principal = 2.0 * s.atan2(w);
-        self.twist = principal + TAU * ((self.twist - principal) / TAU).round();
+        self.torsion_angle = principal + TAU * ((self.torsion_angle - principal) / TAU).round();
         let along =
             sum(sum(scaled(self.axis, w * w), scaled(cross(v, self.axis), w)), scaled(v, s));
         let gradient = scaled(along, 1.0 / (w * w + s * s));
         let gradient = a.map_or(gradient, |row| turned(&bodies[row].rotation, gradient));
         let rate = dot(gradient, difference(spin(b), spin(a)));
-        let torque = self.preload - self.stiffness * self.twist - self.damping * rate;
+        let torque = self.preload - self.stiffness * self.torsion_angle - self.damping * rate;
         for (end, torque) in [(a, -torque), (b, torque)] {
             if let Some(row) = end {
                 bodies[row].torque = sum(bodies[row].torque, scaled(gradient, torque));

@@ -10,6 +10,6 @@ mod read;
 mod run;
 
 pub use body::Body;
-pub use elements::{End, Spring, Stretch, Torsion};
+pub use elements::{Deformation, End, Spring, Torsion};
 pub use read::Lacks;
 pub use run::Plain;

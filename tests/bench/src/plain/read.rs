@@ -11,7 +11,7 @@ use thiserror::Error;
 use crate::vectors::Vector;
 
 use super::body::{Body, Load};
-use super::elements::{End, Spring, Stretch, Torsion};
+use super::elements::{Deformation, End, Spring, Torsion};
 use super::run::Plain;
 
 /// Why there is no plain loop of a model.
@@ -80,26 +80,26 @@ fn bodies(model: &SceneModel<F64>) -> Vec<Body> {
 
 /// Element `i` of a group: star by star, arm by arm.
 fn spring(model: &SceneModel<F64>, group: &Group, i: usize) -> Result<Spring, Lacks> {
-    let (stars, arms) = (usize::from(group.stars), usize::from(group.arms));
+    let (triples, arms) = (usize::from(group.triples), usize::from(group.arms));
     let tip = if group.shared { i % arms } else { i };
     let point = |row: usize| -> Vector { model.points[usize::from(group.point) + row].to_f64() };
     let row = usize::from(group.element) + i;
-    let (stretch, stiffness) = match group.law {
+    let (deformation, stiffness) = match group.law {
         Law::Tsda => {
             let tsda = &model.tsdas[row];
-            (Stretch::Length(tsda.free_length), tsda.stiffness)
+            (Deformation::Length(tsda.free_length), tsda.stiffness)
         }
-        Law::PointBushing => (Stretch::Anywhere, model.bushings[row].stiffness),
+        Law::PointBushing => (Deformation::Anywhere, model.bushings[row].stiffness),
         Law::PointOnLine => {
             let line = &model.lines[row];
-            (Stretch::Across(line.direction.to_f64(), line.free_length), line.stiffness)
+            (Deformation::Across(line.direction.to_f64(), line.free_length), line.stiffness)
         }
         Law::Revolute | Law::Universal => return Err(Lacks::Axes),
     };
     Ok(Spring {
         ends: [end(group.a), end(group.b)],
-        points: [point(i / arms), point(stars + tip)],
-        stretch,
+        points: [point(i / arms), point(triples + tip)],
+        deformation,
         stiffness,
         damping: group.damper.row().map_or(0.0, |first| model.dampers[first + i]),
     })
@@ -113,7 +113,7 @@ fn torsions(model: &SceneModel<F64>) -> Vec<Torsion> {
         stiffness: spring.stiffness,
         damping: spring.damper.row().map_or(0.0, |row| model.dampers[row]),
         preload: spring.preload,
-        twist: 0.0,
+        torsion_angle: 0.0,
     };
     model.torsions.iter().map(torsion).collect()
 }

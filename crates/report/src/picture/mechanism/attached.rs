@@ -52,10 +52,10 @@ pub(super) fn joint_springs(scene: &Scene) -> Vec<JointSpring> {
             if group.law != Law::Tsda {
                 continue;
             }
-            let (stars, arms) = (centres(scene, group), usize::from(group.arms));
+            let (triples, arms) = (centres(scene, group), usize::from(group.arms));
             let end = |body, point: &Vec3<f64>| Place { body: row(body), point: point.to_f64() };
-            for (star, centre) in stars.iter().enumerate() {
-                let block = if group.shared { 0 } else { star };
+            for (triple, centre) in triples.iter().enumerate() {
+                let block = if group.shared { 0 } else { triple };
                 let tips = tips(scene, group).iter().skip(block * arms).take(arms);
                 let ends = tips.map(|tip| [end(group.a, centre), end(group.b, tip)]);
                 springs.extend(ends.map(|ends| JointSpring { joint, ends }));
@@ -131,13 +131,17 @@ fn kind(name: &str) -> JointKind {
 /// The first body's points of a group.
 pub(super) fn centres<'s>(scene: &'s Scene, group: &Group) -> &'s [Vec3<f64>] {
     let first = usize::from(group.point);
-    scene.model.points.get(first..first + usize::from(group.stars)).unwrap_or(&[])
+    scene.model.points.get(first..first + usize::from(group.triples)).unwrap_or(&[])
 }
 
 /// The second body's points of a group.
 pub(super) fn tips<'s>(scene: &'s Scene, group: &Group) -> &'s [Vec3<f64>] {
     let first = usize::from(group.point);
-    scene.model.points.get(first + usize::from(group.stars)..first + group.points()).unwrap_or(&[])
+    scene
+        .model
+        .points
+        .get(first + usize::from(group.triples)..first + group.points())
+        .unwrap_or(&[])
 }
 
 /// The mean of points, halved first so that sums of far points stay finite.

@@ -124,10 +124,10 @@ fn size(mechanism: &Mechanism, held: &[Vec<Vec3<f64>>]) -> f64 {
 /// Distinct points, each the first of its cluster.
 fn distinct(points: Vec<Vec3<f64>>, near: f64) -> Vec<Vec3<f64>> {
     /// Maximum number of attachments that are merged.
-    const MOST: usize = 200;
+    const MAX: usize = 200;
     let mut apart: Vec<Vec3<f64>> = Vec::new();
     for point in points {
-        if apart.len() > MOST || apart.iter().all(|other| length(point - *other) > near) {
+        if apart.len() > MAX || apart.iter().all(|other| length(point - *other) > near) {
             apart.push(point);
         }
     }

@@ -133,7 +133,7 @@ impl<P: dbd_kernel::Geometry> Interaction<P> for Broken<P> {
         state.0 += i32::from(self.rule == 1);
         state.0 |= i32::from(self.rule == 8);
     }
-    fn record(&self, seen: &Seen<'_, P>, _: &Settled) -> Option<Record<P::Space>> {
+    fn force_pair(&self, seen: &Seen<'_, P>, _: &Settled) -> Option<ForcePair<P::Space>> {
         let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
         let way = P::displacement(&a.0, &b.0);
         let arms = if self.rule == 2 { [b.1, b.1] } else { [a.1, b.1] };

@@ -43,7 +43,7 @@ impl Rectangle {
 }
 
 /// Occupied areas of the chart.
-pub struct LabelSpots {
+pub struct LabelPositions {
     bounds: Rectangle,
     labels: Vec<Rectangle>,
     marks: Vec<(f64, f64)>,
@@ -62,7 +62,7 @@ const ON_MARK: f64 = 60.0;
 const ON_STROKE: f64 = 9.0;
 const AGAINST: f64 = 30.0;
 
-impl LabelSpots {
+impl LabelPositions {
     /// None yet.
     pub fn new(bounds: Rectangle) -> Self {
         Self { bounds, labels: Vec::new(), marks: Vec::new(), strokes: Vec::new() }
@@ -152,14 +152,14 @@ mod tests {
     #[test]
     fn labels_keep_off_each_other_and_inside() {
         let bounds = Rectangle { x: 0.0, y: 0.0, width: 600.0, height: 400.0 };
-        let mut spots = LabelSpots::new(bounds);
+        let mut positions = LabelPositions::new(bounds);
         let anchors: Vec<_> = (0..12).map(|n| (250.0 + 9.0 * f64::from(n), 200.0)).collect();
         for anchor in &anchors {
-            spots.mark(*anchor);
+            positions.mark(*anchor);
         }
         let placed: Vec<Rectangle> = anchors
             .iter()
-            .filter_map(|at| spots.find(*at, (90.0, 14.0), (-1.0, 0.0), 1e3))
+            .filter_map(|at| positions.find(*at, (90.0, 14.0), (-1.0, 0.0), 1e3))
             .collect();
         assert!(placed.len() >= 4, "{}", placed.len());
         for (anchor, rectangle) in anchors.iter().zip(&placed) {
@@ -172,7 +172,7 @@ mod tests {
             assert!(anchors.iter().all(|mark| !rectangle.contains(*mark, 0.0)), "{n}");
         }
         // Where the space is taken, there is no label rather than a hidden one.
-        spots.reserve(bounds);
-        assert_eq!(spots.find((300.0, 200.0), (90.0, 14.0), (-1.0, 0.0), 1e3), None);
+        positions.reserve(bounds);
+        assert_eq!(positions.find((300.0, 200.0), (90.0, 14.0), (-1.0, 0.0), 1e3), None);
     }
 }

@@ -1,6 +1,6 @@
 //! A const model written by hand: bodies and elements, with sizes counted by the compiler.
 //!
-//! `numbers in double precision => Model, in flash`. [`Sketch`] exists at compile time only; [`model!`](crate::model!)
+//! `numbers in double precision => Model, in flash`. [`ModelSpec`] exists at compile time only; [`model!`](crate::model!)
 //! counts it, rounds it once to the precision and checks it. It has the bits of the run-time builder's model with the
 //! same elements in the same order.
 
@@ -62,7 +62,7 @@ pub struct Spring {
 
 /// A model under construction, in double precision. Used in a `const`, it costs no memory at run time.
 #[derive(Clone, Copy, Debug)]
-pub struct Sketch {
+pub struct ModelSpec {
     bodies: List<Body<f64>, BODIES>,
     initial: List<BodyState<F64>, BODIES>,
     gravity: List<Vec3<f64>, 1>,
@@ -123,13 +123,13 @@ const fn assert_not_negative(number: f64) {
     assert!(number.is_finite() && number >= 0.0, "a constant is negative or not finite");
 }
 
-impl Default for Sketch {
+impl Default for ModelSpec {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl Sketch {
+impl ModelSpec {
     /// An empty sketch.
     #[must_use]
     pub const fn new() -> Self {
@@ -154,7 +154,7 @@ impl Sketch {
                 law: Law::Tsda,
                 a: body,
                 b: body,
-                stars: 1,
+                triples: 1,
                 arms: 1,
                 shared: false,
                 point: 0,
@@ -241,7 +241,7 @@ impl Sketch {
         points: [[f64; 3]; 2],
         spring: Spring,
     ) -> Self {
-        self.stars(between, &[points[0]], &[points[1]], spring)
+        self.triples(between, &[points[0]], &[points[1]], spring)
     }
 
     /// The TSDAs of one joint: each of the `centres` \[m\] of the first body is joined to all `arms` \[m\], points of
@@ -253,7 +253,7 @@ impl Sketch {
     /// Where a number is out of range or a list is full; without a free length, where `arms` and `centres` differ in
     /// length.
     #[must_use]
-    pub const fn stars(
+    pub const fn triples(
         mut self,
         between: [BodyIndex; 2],
         centres: &[[f64; 3]],
@@ -279,7 +279,7 @@ impl Sketch {
             law: if bushing { Law::PointBushing } else { Law::Tsda },
             a: between[0],
             b: between[1],
-            stars: centres.len() as u8,
+            triples: centres.len() as u8,
             arms: if bushing { 1 } else { arms.len() as u8 },
             shared: !bushing && centres.len() > 1,
             point: self.points.count as u16,

@@ -1,6 +1,6 @@
 //! Damping modes (levers): the dampers of a joint as at most six mutually independent dampers.
 //!
-//! `(model, initial pose, step) => levers`. In the axes of the joint's second body (of its first, where the second is
+//! `(model, initial pose, step) => modes`. In the axes of the joint's second body (of its first, where the second is
 //! the ground) the points of a joint are constant up to its deflection, and so is the 6×6 tensor `C = Σ c·n·nᵀ` of its
 //! dampers, n a damper's wrench. A damping mode is a wrench of unit coefficient; the modes have the same C and are
 //! orthogonal in the inverse of the pair's mass: an impulse along one causes no rate along another (one-sided Jacobi
@@ -8,7 +8,7 @@
 //! modes stay orthogonal; between two bodies only up to the rotation of the bodies' inertias.
 
 use crate::damping::each_direction;
-use crate::damping::lever::{Kind, Lever, Stop};
+use crate::damping::mode::{DampingMode, Kind, Stop};
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -74,10 +74,13 @@ fn seen(a: BodyIndex, b: BodyIndex) -> [BodyIndex; 2] {
 }
 
 /// The modes of a joint.
-pub(super) fn held<'l, P: Geometry>(group: &Group, levers: &'l [Lever<P>]) -> &'l [Lever<P>] {
-    let levers = levers.get(rows::<P>(group)).unwrap_or_default();
-    let count = levers.iter().take_while(|lever| lever.rate > P::Real::ZERO).count();
-    levers.get(..count).unwrap_or_default()
+pub(super) fn held<'l, P: Geometry>(
+    group: &Group,
+    modes: &'l [DampingMode<P>],
+) -> &'l [DampingMode<P>] {
+    let modes = modes.get(rows::<P>(group)).unwrap_or_default();
+    let count = modes.iter().take_while(|mode| mode.rate > P::Real::ZERO).count();
+    modes.get(..count).unwrap_or_default()
 }
 
 /// Weights the modes of joints to the ground, whose 1/μ is independent of the pose.
@@ -85,16 +88,16 @@ pub(crate) fn weigh<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     shares: &[Share<P::Real>],
     h: P::Real,
-    levers: &mut [Lever<P>],
+    modes: &mut [DampingMode<P>],
 ) {
     for group in model.groups {
-        if let (Some(levers), Some(shares)) =
-            (levers.get_mut(rows::<P>(group)), shares.get(rows::<P>(group)))
+        if let (Some(modes), Some(shares)) =
+            (modes.get_mut(rows::<P>(group)), shares.get(rows::<P>(group)))
             && fixed::<P, T>(group).is_some()
         {
-            let held = levers.iter_mut().take_while(|lever| lever.rate > P::Real::ZERO);
-            for (lever, share) in held.zip(shares) {
-                lever.weigh(share, h, lever.rate, P::Real::ONE);
+            let held = modes.iter_mut().take_while(|mode| mode.rate > P::Real::ZERO);
+            for (mode, share) in held.zip(shares) {
+                mode.weigh(share, h, mode.rate, P::Real::ONE);
             }
         }
     }
@@ -116,13 +119,13 @@ pub(crate) fn find<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     h: P::Real,
-    levers: &mut [Lever<P>],
+    modes: &mut [DampingMode<P>],
 ) -> u16 {
     for (row, group) in model.groups.iter().enumerate() {
         let Some(ends) = fixed::<P, T>(group) else { continue };
         let metric = Metric::new(model, ends);
         let own = rows::<P>(group);
-        let Some((before, here)) = levers.split_at_mut_checked(own.start) else { continue };
+        let Some((before, here)) = modes.split_at_mut_checked(own.start) else { continue };
         let Some(here) = here.get_mut(..own.len()) else { continue };
         let near = model.groups.get(row.saturating_sub(NEAR)..row).unwrap_or_default();
         let head = near.iter().find(|other| fixed::<P, T>(other) == Some(ends));
@@ -141,47 +144,50 @@ pub(crate) fn find<P: Geometry, T: Terms<P>>(
                     Some(frame) => P::to_body(frame, direction.along),
                     None => P::Vector::ZERO,
                 };
-                let lever = Lever { along, moment, other, ..Lever::default() };
-                metric.insert(shared, here, lever.scaled(root));
+                let mode = DampingMode { along, moment, other, ..DampingMode::default() };
+                metric.insert(shared, here, mode.scaled(root));
             });
         }
         metric.finish(shared, h);
         metric.finish(here, h);
     }
-    stops(model, levers)
+    stops(model, modes)
 }
 
 /// Writes the entries of all elements with dampers, groups before torsion springs; returns their number. A joint whose
 /// modes are all part of another's has none.
-fn stops<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>, levers: &mut [Lever<P>]) -> u16 {
+fn stops<P: Geometry, T: Terms<P>>(
+    model: &ModelRef<'_, P, T>,
+    modes: &mut [DampingMode<P>],
+) -> u16 {
     let mut number = 0;
     for (of, group) in model.groups.iter().enumerate() {
         let Some(row) = group.damper.row() else { continue };
         let (kind, ends) = kind::<P, T>(group);
         let count = match kind {
-            Kind::Ground | Kind::Joint => match held(group, levers).len() {
+            Kind::Ground | Kind::Joint => match held(group, modes).len() {
                 0 => 0,
                 count => counts::<P>().into_iter().find(|&whole| whole >= count).unwrap_or(count),
             },
             _ => 1,
         };
         if count > 0 {
-            number = add(levers, number, Stop::new(kind, ends, [of, row, count]));
+            number = add(modes, number, Stop::new(kind, ends, [of, row, count]));
         }
     }
     for (of, spring) in model.torsions.iter().enumerate() {
         if let (true, Some(row)) = (T::TORSIONS, spring.damper.row()) {
             let ends = seen(spring.a, spring.b);
-            number = add(levers, number, Stop::new(Kind::Torsion, ends, [of, row, 1]));
+            number = add(modes, number, Stop::new(Kind::Torsion, ends, [of, row, 1]));
         }
     }
     number
 }
 
 /// Writes one more entry.
-fn add<P: Geometry>(levers: &mut [Lever<P>], number: u16, stop: Stop) -> u16 {
-    let Some(lever) = levers.get_mut(usize::from(number)) else { return number };
-    lever.stop = stop;
+fn add<P: Geometry>(modes: &mut [DampingMode<P>], number: u16, stop: Stop) -> u16 {
+    let Some(mode) = modes.get_mut(usize::from(number)) else { return number };
+    mode.stop = stop;
     number + 1
 }
 
@@ -208,14 +214,14 @@ impl<P: Geometry> Metric<P> {
     }
 
     /// \[1/s\] the rate along one per impulse along the other.
-    fn rate(&self, a: &Lever<P>, b: &Lever<P>) -> P::Real {
+    fn rate(&self, a: &DampingMode<P>, b: &DampingMode<P>) -> P::Real {
         a.along.dot(b.along) * self.inverse_mass
             + a.moment.dot(b.moment.scale(self.own))
             + a.other.dot(b.other.scale(self.other))
     }
 
     /// Rotates two modes until they are orthogonal, the stronger one first; returns whether they were not.
-    fn turn(&self, a: &mut Lever<P>, b: &mut Lever<P>) -> bool {
+    fn turn(&self, a: &mut DampingMode<P>, b: &mut DampingMode<P>) -> bool {
         let (x, y, xy) = (self.rate(a, a), self.rate(b, b), self.rate(a, b));
         let least = P::Real::from_f64(8.0) * P::Real::epsilon();
         let crossed = xy.abs() > least * (x * y).sqrt();
@@ -229,7 +235,7 @@ impl<P: Geometry> Metric<P> {
             (P::Real::ONE, P::Real::ZERO)
         };
         let (first, second) = (a.turned(c, b, -s), b.turned(c, a, s));
-        let [x, y] = [&first, &second].map(|lever| self.rate(lever, lever));
+        let [x, y] = [&first, &second].map(|mode| self.rate(mode, mode));
         let (strong, weak, least) =
             if y > x { (second, first, least * y) } else { (first, second, least * x) };
         *a = strong;
@@ -238,13 +244,18 @@ impl<P: Geometry> Metric<P> {
         *b = if rest > P::Real::from_f64(32.0) * P::Real::epsilon() * least {
             weak
         } else {
-            Lever::default()
+            DampingMode::default()
         };
         crossed
     }
 
     /// Inserts one more mode. With as many slots as modes, or with six, there is always a free one.
-    fn insert(&self, shared: &mut [Lever<P>], own: &mut [Lever<P>], mut lever: Lever<P>) {
+    fn insert(
+        &self,
+        shared: &mut [DampingMode<P>],
+        own: &mut [DampingMode<P>],
+        mut mode: DampingMode<P>,
+    ) {
         let count = shared.len() + own.len();
         let mut crossed = true;
         for _ in 0..SWEEPS {
@@ -259,24 +270,24 @@ impl<P: Geometry> Metric<P> {
                     }
                 }
                 if let Some(a) = one(shared, own, i) {
-                    crossed |= self.turn(a, &mut lever);
+                    crossed |= self.turn(a, &mut mode);
                 }
             }
         }
     }
 
     /// Sets the rates that are independent of the pose. Beyond `LARGEST` of h/μ the result is constant.
-    fn finish(&self, levers: &mut [Lever<P>], h: P::Real) {
+    fn finish(&self, modes: &mut [DampingMode<P>], h: P::Real) {
         let largest = P::Real::from_f64(LARGEST);
-        for i in 0..levers.len() {
-            let Some((before, [lever, ..])) = levers.split_at_mut_checked(i) else { break };
-            let x = h * self.rate(lever, lever);
+        for i in 0..modes.len() {
+            let Some((before, [mode, ..])) = modes.split_at_mut_checked(i) else { break };
+            let x = h * self.rate(mode, mode);
             if x > largest {
-                *lever = lever.scaled((largest / x).sqrt());
+                *mode = mode.scaled((largest / x).sqrt());
             }
-            let still = Lever { other: P::Moment::ZERO, ..*lever };
-            lever.rate = self.rate(&still, &still);
-            for (rate, earlier) in lever.still.iter_mut().zip(before) {
+            let still = DampingMode { other: P::Moment::ZERO, ..*mode };
+            mode.rate = self.rate(&still, &still);
+            for (rate, earlier) in mode.still.iter_mut().zip(before) {
                 *rate = self.rate(&still, earlier);
             }
         }

@@ -30,7 +30,7 @@ pub const SECOND_TOLERANCE: f64 = 1e-11;
 /// Maximum steps of an integrator: a constant, plus a number per radian of the highest frequency at the start. A
 /// mechanism that reaches a pose with an undefined direction has no reference solution beyond it, however short the
 /// steps.
-const MOST_STEPS: [f64; 2] = [2e5, 100.0];
+const MAX_STEPS: [f64; 2] = [2e5, 100.0];
 
 /// Which integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +48,7 @@ pub enum Opinion {
     "use a shorter window that ends before a torsion angle is undefined or a spring's \
                    points coincide"
 ))]
-pub struct NoTruth {
+pub struct NoReferenceSolution {
     /// \[s\] where the integrator stopped, or the start of the piece.
     pub time: f64,
     /// The integrator's message.
@@ -64,12 +64,12 @@ pub fn integrate(
     mechanism: &Mechanism,
     start: &State,
     times: &[f64],
-) -> Result<Vec<State>, NoTruth> {
+) -> Result<Vec<State>, NoReferenceSolution> {
     let bodies = mechanism.bodies.len();
     let mut states = Vec::with_capacity(times.len());
     let end = times.last().copied().unwrap_or_default();
     let highest = eigenfrequencies(mechanism, start, 0.0).last().map_or(0.0, |rate| rate.max(0.0));
-    let [least, each] = MOST_STEPS;
+    let [least, each] = MAX_STEPS;
     let left = (least + each * highest * end) as usize;
     let mut piece = Piece { y: pack(start, 0.0), time: 0.0, step: 0.0, left };
     let mut jumps = mechanism.jumps([0.0, end]).into_iter().peekable();
@@ -99,7 +99,7 @@ impl Piece {
         opinion: Opinion,
         mechanism: &Mechanism,
         end: f64,
-    ) -> Result<(), NoTruth> {
+    ) -> Result<(), NoReferenceSolution> {
         if end <= self.time {
             return Ok(());
         }
@@ -118,7 +118,7 @@ impl Piece {
         opinion: Opinion,
         equations: &Equations<'_>,
         end: f64,
-    ) -> Result<(Vec<f64>, Vec<f64>), NoTruth> {
+    ) -> Result<(Vec<f64>, Vec<f64>), NoReferenceSolution> {
         let problem = IVP::ode(equations, self.time, end, self.y.clone()).solout(Latest);
         let first = self.step.min(end - self.time);
         let solution = match opinion {
@@ -135,18 +135,20 @@ impl Piece {
         match solution {
             Ok(mut solution) => self.finite(solution.y.pop()).map(|y| (solution.t, y)),
             Err(Error::StepSize { t, .. } | Error::Stiffness { t, .. }) => {
-                Err(NoTruth { time: t, reason: "no step size is small enough".into() })
+                Err(NoReferenceSolution { time: t, reason: "no step size is small enough".into() })
             }
             Err(Error::MaxSteps { t, .. }) => {
-                Err(NoTruth { time: t, reason: "the step size tends to zero".into() })
+                Err(NoReferenceSolution { time: t, reason: "the step size tends to zero".into() })
             }
-            Err(_) => Err(NoTruth { time: self.time, reason: "no solution".into() }),
+            Err(_) => Err(NoReferenceSolution { time: self.time, reason: "no solution".into() }),
         }
     }
 
-    fn finite(&self, y: Option<Vec<f64>>) -> Result<Vec<f64>, NoTruth> {
-        y.filter(|y| y.iter().all(|value| value.is_finite()))
-            .ok_or(NoTruth { time: self.time, reason: "the state is not finite".into() })
+    fn finite(&self, y: Option<Vec<f64>>) -> Result<Vec<f64>, NoReferenceSolution> {
+        y.filter(|y| y.iter().all(|value| value.is_finite())).ok_or(NoReferenceSolution {
+            time: self.time,
+            reason: "the state is not finite".into(),
+        })
     }
 }
 

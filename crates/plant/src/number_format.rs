@@ -21,7 +21,7 @@ pub enum Digits {
 
 /// The digits of a body's quantities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Numerals {
+pub struct NumberFormat {
     /// Of a position.
     pub position: Digits,
     /// Of an orientation.
@@ -32,7 +32,7 @@ pub struct Numerals {
     pub reading: Digits,
 }
 
-impl Numerals {
+impl NumberFormat {
     /// The numerals of a precision.
     #[must_use]
     pub fn of<P: Geometry>() -> Self {
@@ -119,7 +119,7 @@ fn is_spelled_alike(value: f64, denominator: f64) -> bool {
         && scaled != scaled.trunc()
 }
 
-impl Numerals {
+impl NumberFormat {
     /// The numerals of a precision and an orientation representation, by their names; `None` if the precision is
     /// unknown.
     #[must_use]
@@ -155,18 +155,21 @@ mod tests {
 
     #[test]
     fn single_words_have_single_digits() {
-        assert_eq!(Numerals::of::<F32>().position, Digits::Single);
-        assert_eq!(Numerals::of::<F32>().velocity, Digits::Single);
-        assert_eq!(Numerals::of::<F64>().orientation, Digits::Double);
+        assert_eq!(NumberFormat::of::<F32>().position, Digits::Single);
+        assert_eq!(NumberFormat::of::<F32>().velocity, Digits::Single);
+        assert_eq!(NumberFormat::of::<F64>().orientation, Digits::Double);
     }
 
     #[test]
     fn numerals_are_known_by_their_names() {
-        let known = |precision, orientation| Numerals::of_names(precision, orientation);
-        assert_eq!(known("f32", "quaternion"), Some(Numerals::of::<F32>()));
-        assert_eq!(known("f64", "quaternion"), Some(Numerals::of::<F64>()));
-        assert_eq!(known("f32", "euler-321"), Some(Numerals::of::<dbd_kernel::euler::EulerF32>()));
-        let fixed = Numerals::of::<dbd_kernel::Fixed>();
+        let known = |precision, orientation| NumberFormat::of_names(precision, orientation);
+        assert_eq!(known("f32", "quaternion"), Some(NumberFormat::of::<F32>()));
+        assert_eq!(known("f64", "quaternion"), Some(NumberFormat::of::<F64>()));
+        assert_eq!(
+            known("f32", "euler-321"),
+            Some(NumberFormat::of::<dbd_kernel::euler::EulerF32>())
+        );
+        let fixed = NumberFormat::of::<dbd_kernel::Fixed>();
         assert_eq!(known("fixed", "quaternion"), Some(fixed));
         assert_eq!(fixed.reading, Digits::Single);
         assert_eq!(known("f16", "quaternion"), None);

@@ -5,10 +5,10 @@ use crate::elements::revolute::Revolute;
 use crate::elements::universal::Universal;
 use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
 use crate::model::Group;
-use crate::sketch::{Sketch, assert_not_negative, assert_unit, dot, point, vector};
+use crate::model_spec::{ModelSpec, assert_not_negative, assert_unit, dot, point, vector};
 use crate::vector::Vec3;
 
-impl Sketch {
+impl ModelSpec {
     /// A revolute joint of bushings: a point \[m\] and a unit axis of each body in its own axes, `stiffness` \[N/m\]
     /// and `damping` \[N·s/m\] across the axis, `ratio` times as much along it, and the `lever` arm \[m\] at which they
     /// align the axes.
@@ -31,11 +31,12 @@ impl Sketch {
         assert!(lever > 0.0, "the length of a lever is not positive");
         let element = self.revolutes.count;
         let law = Law::Revolute;
-        let mut sketch = self.bushing_group(law, between, points, element, [stiffness, damping]);
+        let mut model_spec =
+            self.bushing_group(law, between, points, element, [stiffness, damping]);
         let along = (ratio - 1.0) / (lever * lever);
         let levers = [scaled(axes[0], lever), scaled(axes[1], lever)];
-        sketch.revolutes = sketch.revolutes.push(Revolute { stiffness, along, levers });
-        sketch
+        model_spec.revolutes = model_spec.revolutes.push(Revolute { stiffness, along, levers });
+        model_spec
     }
 
     /// A universal joint without a spider: a point \[m\] and a unit axis of each body in its own axes, `stiffness`
@@ -57,10 +58,11 @@ impl Sketch {
         assert_not_negative(lever);
         let element = self.universals.count;
         let law = Law::Universal;
-        let mut sketch = self.bushing_group(law, between, points, element, [stiffness, damping]);
+        let mut model_spec =
+            self.bushing_group(law, between, points, element, [stiffness, damping]);
         let (lever, axis) = (scaled(axes[0], lever), vector(axes[1]));
-        sketch.universals = sketch.universals.push(Universal { stiffness, lever, axis });
-        sketch
+        model_spec.universals = model_spec.universals.push(Universal { stiffness, lever, axis });
+        model_spec
     }
 
     const fn bushing_group(
@@ -79,7 +81,7 @@ impl Sketch {
             law,
             a: between[0],
             b: between[1],
-            stars: 1,
+            triples: 1,
             arms: 1,
             shared: false,
             point: self.points.count as u16,

@@ -1,6 +1,6 @@
 //! Spring triples of TSDAs: a point of A joined to one or three points of B.
 //!
-//! `(group, ends) => record`. Each distinct point is computed once; the forces on a point of B are added in the order
+//! `(group, ends) => force_pair`. Each distinct point is computed once; the forces on a point of B are added in the order
 //! of its elements; force and torque on A add triple by triple, the torque on B leg by leg.
 //!
 //! Nearly every group has two triples with three common points or one triple and takes the specialised path of
@@ -8,27 +8,27 @@
 //! rest.
 
 use crate::elements::tsda::Tsda;
-use crate::forces::record::{Dampers, Record};
+use crate::forces::force_pair::{Dampers, ForcePair};
 use crate::forces::springs::Springs;
 use crate::geometry::Geometry;
 use crate::model::{Group, Law, ModelRef, Terms};
-use crate::pose::{End, MOST_ARMS, Places};
+use crate::pose::{End, MAX_ARMS, Places};
 use crate::real::Real as _;
 use crate::space::{Linear, Space, Vector as _};
 
 /// A group of TSDA triples.
 #[inline(always)]
-pub(super) fn stars<P: Geometry, T: Terms<P>, D: Dampers>(
+pub(super) fn triples<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
     rests: &[P::Rest],
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Space>> {
+) -> Option<ForcePair<P::Space>> {
     if P::RESTS && (rests.is_empty() || end_b.body().is_none()) {
         return rare::<P, T, D>(model, group, end_a, end_b);
     }
-    match (group.stars, group.arms, end_b.body()) {
+    match (group.triples, group.arms, end_b.body()) {
         (2, 3, Some(b)) if group.shared && !P::Space::PLANAR => {
             straight::<P, T, D, 2, 3>(model, rests, group, end_a, &b)
         }
@@ -52,7 +52,7 @@ fn rare<P: Geometry, T: Terms<P>, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Space>> {
+) -> Option<ForcePair<P::Space>> {
     match (group.arms, end_b.body()) {
         (3, Some(b)) if T::LINES && !T::ALL && !P::RESTS && !group.shared => {
             apart::<P, T, D, 3>(model, group, end_a, &b)
@@ -71,22 +71,25 @@ pub(crate) fn find_rests<P: Geometry, T: Terms<P>>(
     for group in model.groups.iter().filter(|group| group.law == Law::Tsda) {
         let Some(frame) = frames.get(group.b.row()) else { continue };
         let end_a = End::new(model, places, group.a, None);
-        for star in 0..group.stars as usize {
-            let Some(centre) = model.points.get(group.centre(star)) else { break };
+        for triple in 0..group.triples as usize {
+            let Some(centre) = model.points.get(group.centre(triple)) else { break };
             let (centre, _) = end_a.place(centre);
             let arms = group.arms as usize;
-            let first = group.element as usize + star * arms;
-            let (tips, springs) = (group.tips(star), model.tsdas.get(first..first + arms));
-            let (Some(tips), Some(springs), Some(rests)) =
-                (model.points.get(tips..tips + arms), springs, rests.get_mut(first..first + arms))
-            else {
+            let first = group.element as usize + triple * arms;
+            let (endpoints, springs) =
+                (group.endpoints(triple), model.tsdas.get(first..first + arms));
+            let (Some(endpoints), Some(springs), Some(rests)) = (
+                model.points.get(endpoints..endpoints + arms),
+                springs,
+                rests.get_mut(first..first + arms),
+            ) else {
                 break;
             };
-            let mut free_lengths = [P::Real::ZERO; MOST_ARMS];
+            let mut free_lengths = [P::Real::ZERO; MAX_ARMS];
             for (length, spring) in free_lengths.iter_mut().zip(springs) {
                 *length = spring.free_length;
             }
-            P::find_rests(frame, &centre, tips, &free_lengths, rests);
+            P::find_rests(frame, &centre, endpoints, &free_lengths, rests);
         }
     }
 }
@@ -94,72 +97,78 @@ pub(crate) fn find_rests<P: Geometry, T: Terms<P>>(
 /// A revolute's triples. Duplicated: where an end is known to be a body or the ground, no point is tested for its
 /// owner. The ground is nearly always the first.
 #[inline(always)]
-fn straight<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS: usize>(
+fn straight<P: Geometry, T: Terms<P>, D: Dampers, const TRIPLES: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     rests: &[P::Rest],
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Space>> {
+) -> Option<ForcePair<P::Space>> {
     // Ground moved by an input is tested for at each point, or takes the general path: see [`rare`].
     if T::LINES && !T::ALL {
         return match (end_a.body(), end_a.still()) {
-            (Some(a), _) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
-            (None, Some(a)) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
+            (Some(a), _) => block::<P, T, D, TRIPLES, ARMS>(model, rests, group, &a, end_b),
+            (None, Some(a)) => block::<P, T, D, TRIPLES, ARMS>(model, rests, group, &a, end_b),
             (None, None) => rare::<P, T, D>(model, group, end_a, end_b),
         };
     }
     match end_a.body() {
-        Some(a) => block::<P, T, D, STARS, ARMS>(model, rests, group, &a, end_b),
-        None => block::<P, T, D, STARS, ARMS>(model, rests, group, &end_a.ground(), end_b),
+        Some(a) => block::<P, T, D, TRIPLES, ARMS>(model, rests, group, &a, end_b),
+        None => block::<P, T, D, TRIPLES, ARMS>(model, rests, group, &end_a.ground(), end_b),
     }
 }
 
-/// `STARS` triples with `ARMS` common points of B. `None` where the model lacks them.
+/// `TRIPLES` triples with `ARMS` common points of B. `None` where the model lacks them.
 #[inline(always)]
-fn block<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS: usize>(
+fn block<P: Geometry, T: Terms<P>, D: Dampers, const TRIPLES: usize, const ARMS: usize>(
     model: &ModelRef<'_, P, T>,
     rests: &[P::Rest],
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Space>> {
-    let points = model.points.get(group.centre(0)..group.centre(0) + STARS + ARMS)?;
+) -> Option<ForcePair<P::Space>> {
+    let points = model.points.get(group.centre(0)..group.centre(0) + TRIPLES + ARMS)?;
     let springs = grid(model.tsdas, group.element as usize)?;
     let rests = if P::RESTS { Some(grid(rests, group.element as usize)?) } else { None };
-    pull::<P, T, D, STARS, ARMS>(model, group, (points, springs, rests), end_a, end_b)
+    pull::<P, T, D, TRIPLES, ARMS>(model, group, (points, springs, rests), end_a, end_b)
 }
 
 /// The points of triples, their springs, and the reference TSDAs where the precision stores any.
-type Parts<'m, P, const STARS: usize, const ARMS: usize> = (
+type Parts<'m, P, const TRIPLES: usize, const ARMS: usize> = (
     &'m [<P as Geometry>::Local],
-    &'m [[Tsda<<P as Geometry>::Real>; ARMS]; STARS],
-    Option<&'m [[<P as Geometry>::Rest; ARMS]; STARS]>,
+    &'m [[Tsda<<P as Geometry>::Real>; ARMS]; TRIPLES],
+    Option<&'m [[<P as Geometry>::Rest; ARMS]; TRIPLES]>,
 );
 
-/// The record of `STARS` triples with `ARMS` common points of B: unrolled, each sum starting with its first term.
+/// The record of `TRIPLES` triples with `ARMS` common points of B: unrolled, each sum starting with its first term.
 /// `None` where the model lacks a part.
 #[inline(always)]
-pub(super) fn pull<P: Geometry, T: Terms<P>, D: Dampers, const STARS: usize, const ARMS: usize>(
+pub(super) fn pull<
+    P: Geometry,
+    T: Terms<P>,
+    D: Dampers,
+    const TRIPLES: usize,
+    const ARMS: usize,
+>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
-    (points, springs, rests): Parts<'_, P, STARS, ARMS>,
+    (points, springs, rests): Parts<'_, P, TRIPLES, ARMS>,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Space>> {
-    let (centres, tips) = points.split_first_chunk::<STARS>()?;
-    let tips: &[_; ARMS] = tips.first_chunk()?;
+) -> Option<ForcePair<P::Space>> {
+    let (centres, endpoints) = points.split_first_chunk::<TRIPLES>()?;
+    let endpoints: &[_; ARMS] = endpoints.first_chunk()?;
     let clearance = model.clearance(group);
     Some(match group.damper.row() {
         // Separate: damping is not tested for each spring.
         Some(row) if D::ACT && T::DAMPERS => {
             let dampers = Some(grid(model.dampers, row)?);
             let springs = Springs::<P, _, _> { springs, rests, dampers, clearance };
-            springs.record(centres, tips, end_a, end_b)
+            springs.force_pair(centres, endpoints, end_a, end_b)
         }
         _ => {
             let springs = Springs::<P, _, _> { springs, rests, dampers: None, clearance };
-            springs.record(centres, tips, end_a, end_b)
+            springs.force_pair(centres, endpoints, end_a, end_b)
         }
     })
 }
@@ -181,21 +190,21 @@ fn apart<P: Geometry, T: Terms<P>, D: Dampers, const ARMS: usize>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Space>> {
+) -> Option<ForcePair<P::Space>> {
     let clearance = model.clearance(group);
-    let mut record = Record::ZERO;
-    for star in 0..group.stars as usize {
-        let centre = model.points.get(group.centre(star))?;
-        let tips = model.points.get(group.tips(star)..)?.first_chunk::<ARMS>()?;
-        let springs = grid(model.tsdas, group.element as usize + star * ARMS)?;
+    let mut force_pair = ForcePair::ZERO;
+    for triple in 0..group.triples as usize {
+        let centre = model.points.get(group.centre(triple))?;
+        let endpoints = model.points.get(group.endpoints(triple)..)?.first_chunk::<ARMS>()?;
+        let springs = grid(model.tsdas, group.element as usize + triple * ARMS)?;
         let dampers = match group.damper.row() {
-            Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row + star * ARMS)?),
+            Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row + triple * ARMS)?),
             _ => None,
         };
-        let star = Springs { springs, rests: None, dampers, clearance };
-        star.add(centre, tips, end_a, end_b, &mut record);
+        let triple = Springs { springs, rests: None, dampers, clearance };
+        triple.add(centre, endpoints, end_a, end_b, &mut force_pair);
     }
-    Some(record)
+    Some(force_pair)
 }
 
 /// Any number of triples with common or separate points of B.
@@ -205,42 +214,42 @@ fn many<P: Geometry, T: Terms<P>, D: Dampers>(
     group: &Group,
     end_a: &End<'_, P>,
     end_b: &End<'_, P>,
-) -> Option<Record<P::Space>> {
-    let (stars, arms) = (group.stars as usize, group.arms as usize);
+) -> Option<ForcePair<P::Space>> {
+    let (triples, arms) = (group.triples as usize, group.arms as usize);
     let springs = model.tsdas.get(group.element as usize..)?;
     let dampers = match group.damper.row() {
         Some(row) if D::ACT && T::DAMPERS => model.dampers.get(row..),
         _ => None,
     };
     let clearance = model.clearance(group);
-    let mut record = Record::ZERO;
-    let mut pulls = [P::Vector::ZERO; MOST_ARMS];
-    for star in 0..stars {
-        let (centre, arm_a) = end_a.place(model.points.get(group.centre(star))?);
+    let mut force_pair = ForcePair::ZERO;
+    let mut pulls = [P::Vector::ZERO; MAX_ARMS];
+    for triple in 0..triples {
+        let (centre, arm_a) = end_a.place(model.points.get(group.centre(triple))?);
         let mut pull_a = P::Vector::ZERO;
         for (arm, pull_b) in pulls.iter_mut().take(arms).enumerate() {
-            let element = star * arms + arm;
+            let element = triple * arms + arm;
             let spring = springs.get(element)?;
-            let (tip, arm_b) = end_b.place(model.points.get(group.tips(star) + arm)?);
-            let reach = P::reach(&centre, &tip, spring.free_length);
+            let (endpoint, arm_b) = end_b.place(model.points.get(group.endpoints(triple) + arm)?);
+            let elongation = P::elongation(&centre, &endpoint, spring.free_length);
             let pull = match dampers.and_then(|dampers| dampers.get(element)) {
                 Some(&damping) => {
                     let v_rel = end_b.point_velocity(arm_b) - end_a.point_velocity(arm_a);
-                    spring.damped_pull(damping, &reach, v_rel, clearance)
+                    spring.damped_pull(damping, &elongation, v_rel, clearance)
                 }
-                None => spring.pull(&reach, clearance),
+                None => spring.pull(&elongation, clearance),
             };
             pull_a = pull_a + pull;
             *pull_b = *pull_b + pull;
-            if !group.shared || star + 1 == stars {
-                record.torque_b = record.torque_b + arm_b.cross(*pull_b);
+            if !group.shared || triple + 1 == triples {
+                force_pair.torque_b = force_pair.torque_b + arm_b.cross(*pull_b);
                 *pull_b = P::Vector::ZERO;
             }
         }
-        record.force = record.force + pull_a;
-        record.torque_a = record.torque_a + arm_a.cross(pull_a);
+        force_pair.force = force_pair.force + pull_a;
+        force_pair.torque_a = force_pair.torque_a + arm_a.cross(pull_a);
     }
-    Some(record)
+    Some(force_pair)
 }
 
 #[cfg(test)]
@@ -248,7 +257,7 @@ mod tests {
     use super::*;
     use crate::body::{Body, BodyState};
     use crate::elements::element::Law;
-    use crate::forces::record::{DampersLeft, ExplicitDampers};
+    use crate::forces::force_pair::{DampersLeft, ExplicitDampers};
     use crate::geometry::F64;
     use crate::index::{BodyIndex, ClearanceIndex, DamperIndex};
     use crate::model::{Model, ModelOwner as _};
@@ -260,14 +269,14 @@ mod tests {
     const SECOND: BodyIndex = BodyIndex(1);
 
     /// Two triples with common points.
-    fn group(between: [BodyIndex; 2], stars: u8, arms: u8) -> Group {
+    fn group(between: [BodyIndex; 2], triples: u8, arms: u8) -> Group {
         Group {
             law: Law::Tsda,
             a: between[0],
             b: between[1],
-            stars,
+            triples,
             arms,
-            shared: stars == 2,
+            shared: triples == 2,
             point: 0,
             element: 0,
             damper: DamperIndex(0),
@@ -276,7 +285,7 @@ mod tests {
     }
 
     /// Both paths for one group, in a pose and motion without any symmetry.
-    fn both_ways<D: Dampers>(group: Group, coincident: bool) -> [Record<f64>; 2] {
+    fn both_ways<D: Dampers>(group: Group, coincident: bool) -> [ForcePair<f64>; 2] {
         let spring = |i: i32| Tsda {
             stiffness: 1e4 + 37.0 * f64::from(i),
             free_length: 0.05 + 1e-3 * f64::from(i),
@@ -327,12 +336,12 @@ mod tests {
         let places = Places { frames: &frames, signals: &[] };
         let end = |body| End::new(&view, places, body, Some(&states));
         let (a, b) = (end(group.a), end(group.b));
-        let straight = stars::<F64, _, D>(&view, &[], &group, &a, &b).unwrap();
+        let straight = triples::<F64, _, D>(&view, &[], &group, &a, &b).unwrap();
         [straight, many::<F64, _, D>(&view, &group, &a, &b).unwrap()]
     }
 
     /// The moment on the ground is not compared.
-    fn assert_same(group: Group, [straight, long]: [Record<f64>; 2]) {
+    fn assert_same(group: Group, [straight, long]: [ForcePair<f64>; 2]) {
         assert_eq!(straight.force, long.force, "{group:?}");
         assert!(group.a.is_world() || straight.torque_a == long.torque_a, "{group:?}");
         assert!(group.b.is_world() || straight.torque_b == long.torque_b, "{group:?}");
@@ -342,8 +351,8 @@ mod tests {
     #[test]
     fn the_straight_line_has_the_bits_of_the_long_way() {
         for between in [[FIRST, SECOND], [WORLD, SECOND], [FIRST, WORLD]] {
-            for (stars, arms) in [(2, 3), (1, 3), (1, 1), (3, 3)] {
-                let free = group(between, stars, arms);
+            for (triples, arms) in [(2, 3), (1, 3), (1, 1), (3, 3)] {
+                let free = group(between, triples, arms);
                 let clear = Group { clearance: ClearanceIndex(0), ..free };
                 for group in [free, clear] {
                     assert_same(group, both_ways::<DampersLeft>(group, false));
@@ -391,7 +400,7 @@ mod tests {
             let end = |body| End::new(&view, places, body, None);
             let (a, b) = (end(group.a), end(group.b));
             assert!(
-                stars::<F64, _, DampersLeft>(&view, &[], &group, &a, &b).is_none(),
+                triples::<F64, _, DampersLeft>(&view, &[], &group, &a, &b).is_none(),
                 "{group:?}"
             );
         }

@@ -17,14 +17,17 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 const WORLD: BodyIndex = BodyIndex::WORLD;
 
-fn truth(model: &Bench<F64>, window: f64, samples: u32) -> Trajectory {
+fn reference_solution(model: &Bench<F64>, window: f64, samples: u32) -> Trajectory {
     let (mechanism, start) = Mechanism::of_model(model);
-    Trajectory::truth_of(&mechanism, &start, sample_times(window, samples)).unwrap()
+    Trajectory::reference_solution_of(&mechanism, &start, sample_times(window, samples)).unwrap()
 }
 
 /// The largest difference of a quantity from its closed form over all samples.
-fn worst(truth: &Trajectory, difference: impl Fn(f64, &dbd_study::reference::State) -> f64) -> f64 {
-    let pairs = truth.times.iter().zip(&truth.states);
+fn worst(
+    reference_solution: &Trajectory,
+    difference: impl Fn(f64, &dbd_study::reference::State) -> f64,
+) -> f64 {
+    let pairs = reference_solution.times.iter().zip(&reference_solution.states);
     pairs.map(|(t, state)| difference(*t, state).abs()).fold(0.0, f64::max)
 }
 
@@ -34,14 +37,17 @@ fn a_mass_on_a_spring_with_and_without_damping() {
         let mut model = Bench::new();
         let body = model.add_body(2.0, [0.1; 3], at([1.1, 0.0, 0.0])).unwrap();
         model.add_tsda([WORLD, body], [[0.0; 3]; 2], 50.0, 20.0 * zeta, 1.0).unwrap();
-        let truth = truth(&model, 10.0, 40);
+        let reference_solution = reference_solution(&model, 10.0, 40);
         let damped = 5.0 * (1.0_f64 - zeta * zeta).sqrt();
-        let error = worst(&truth, |t, state| {
+        let error = worst(&reference_solution, |t, state| {
             let (s, c) = (damped * t).sin_cos();
             let x = 0.1 * (-5.0 * zeta * t).exp() * (c + 5.0 * zeta / damped * s);
             state.bodies[0].position.x - 1.0 - x
         });
-        assert!(error < 1e-11 && truth.largest_uncertainty() < 1e-11, "{zeta}: {error:e}");
+        assert!(
+            error < 1e-11 && reference_solution.largest_uncertainty() < 1e-11,
+            "{zeta}: {error:e}"
+        );
     }
 }
 
@@ -55,12 +61,12 @@ fn a_free_symmetric_top() {
     let mut model = Bench::new();
     let state = BodyState::<F64>::from_f64([0.0; 3], start, [0.3, 0.0, -0.2], rate);
     model.add_body(1.3, [i1, i1, i3], state).unwrap();
-    let truth = truth(&model, 10.0, 20);
+    let reference_solution = reference_solution(&model, 10.0, 20);
     let (_, first) = Mechanism::of_model(&model);
     let first = first.bodies[0].orientation;
     let spin = Vector3::new(i1 * rate[0], i1 * rate[1], i3 * rate[2]);
     let momentum = first * spin;
-    let error = worst(&truth, |t, state| {
+    let error = worst(&reference_solution, |t, state| {
         let about_momentum = UnitQuaternion::from_scaled_axis(momentum * (t / i1));
         let in_itself = Vector3::z() * ((1.0 - i3 / i1) * rate[2] * t);
         let exact = about_momentum * first * UnitQuaternion::from_scaled_axis(in_itself);
@@ -70,7 +76,7 @@ fn a_free_symmetric_top() {
         moved.max((q - exact).norm().min((q + exact).norm()))
     });
     assert!(error < 1e-10, "{error:e}");
-    let kept = worst(&truth, |_, state| {
+    let kept = worst(&reference_solution, |_, state| {
         let body = &state.bodies[0];
         (body.orientation * Vector3::new(i1, i1, i3).component_mul(&body.rate) - momentum).norm()
     });
@@ -86,10 +92,12 @@ fn turns_of_a_torsion_spring_are_counted() {
     model.add_torsion_spring([WORLD, body], [0.0, 0.0, 1.0], stiffness, 0.0, 32.0).unwrap();
     let omega = (stiffness / inertia).sqrt();
     // Samples wide apart: more than a turn from one to the next.
-    let truth = truth(&model, 2.5 * TAU / omega, 5);
-    let error = worst(&truth, |t, state| state.twists[0] - 8.0 * (1.0 - (omega * t).cos()));
+    let reference_solution = reference_solution(&model, 2.5 * TAU / omega, 5);
+    let error = worst(&reference_solution, |t, state| {
+        state.torsion_angles[0] - 8.0 * (1.0 - (omega * t).cos())
+    });
     assert!(error < 1e-10, "{error:e}");
-    assert!(truth.states.iter().any(|state| state.twists[0] > 2.0 * TAU));
+    assert!(reference_solution.states.iter().any(|state| state.torsion_angles[0] > 2.0 * TAU));
 }
 
 #[test]
@@ -109,14 +117,14 @@ fn loads_and_tables_jump_between_samples() {
     let kind = InputKind::Force { body, point: Vec3::ZERO, direction, frame: LoadFrame::World };
     // A ramp from 0 N at 0.2 s to 4 N at 0.6 s, then held at 4 N.
     model.add_table(kind, &[[0.0, 0.0], [0.2, 0.0], [0.6, 4.0]], true).unwrap();
-    let truth = truth(&model, 1.0, 7);
+    let reference_solution = reference_solution(&model, 1.0, 7);
     let since = |t: f64, from: f64| (t - from).max(0.0);
-    let error = worst(&truth, |t, state| {
+    let error = worst(&reference_solution, |t, state| {
         let x = 1.5 * (since(t, 0.113).powi(2) - since(t, 0.517).powi(2));
         let y = 5.0 / 6.0 * (since(t, 0.2).powi(3) - since(t, 0.6).powi(3));
         (state.bodies[0].position - Vector3::new(x, y, 0.0)).norm()
     });
-    assert!(error < 1e-13 && truth.largest_uncertainty() < 1e-13, "{error:e}");
+    assert!(error < 1e-13 && reference_solution.largest_uncertainty() < 1e-13, "{error:e}");
 }
 
 /// Scenes of one mechanism; those of several consist of them.
@@ -127,16 +135,16 @@ fn single(name: &str) -> bool {
 #[test]
 fn the_two_opinions_agree_on_every_scene() {
     for name in scene_names().into_iter().filter(|name| single(name)) {
-        let truth = Trajectory::truth(&scene(&name), 0.05, 10).unwrap();
-        let uncertainty = truth.largest_uncertainty();
+        let reference_solution = Trajectory::reference_solution(&scene(&name), 0.05, 10).unwrap();
+        let uncertainty = reference_solution.largest_uncertainty();
         assert!(uncertainty < 2e-11, "{name}: {uncertainty:e}");
         assert!(uncertainty > 0.0, "{name}: two integrators and not one bit between them");
     }
 }
 
-fn error_of(scene: &Scene, truth: &Trajectory, scheme: SchemeName, steps: u64) -> f64 {
+fn error_of(scene: &Scene, reference_solution: &Trajectory, scheme: SchemeName, steps: u64) -> f64 {
     let method = Method::new(scheme, None, PrecisionName::F64).unwrap();
-    truth.error(&truth.run(scene, &method, steps))
+    reference_solution.error(&reference_solution.run(scene, &method, steps))
 }
 
 #[test]
@@ -144,11 +152,11 @@ fn schemes_converge_to_the_truth_with_their_order() {
     // With points on lines; with torsion springs.
     for (name, steps) in [("crank-slider", 1_000), ("four-bar", 500)] {
         let scene = scene(name);
-        let truth = Trajectory::truth(&scene, 0.1, 20).unwrap();
+        let reference_solution = Trajectory::reference_solution(&scene, 0.1, 20).unwrap();
         let ratio = |scheme| {
-            let [coarse, fine] =
-                [steps, 2 * steps].map(|steps| error_of(&scene, &truth, scheme, steps));
-            assert!(fine > 100.0 * truth.largest_uncertainty(), "{fine:e}");
+            let [coarse, fine] = [steps, 2 * steps]
+                .map(|steps| error_of(&scene, &reference_solution, scheme, steps));
+            assert!(fine > 100.0 * reference_solution.largest_uncertainty(), "{fine:e}");
             coarse / fine
         };
         let (leapfrog, dbd) = (ratio(SchemeName::Leapfrog), ratio(SchemeName::Dbd));
@@ -160,14 +168,17 @@ fn schemes_converge_to_the_truth_with_their_order() {
 fn an_error_is_a_mean_over_bodies_and_samples_and_infinite_where_a_run_ends_early() {
     let positions = |shift: f64| vec![Vector3::zeros(), Vector3::x() * shift];
     assert!((distance(&positions(0.0), &positions(3.0)) - 3.0 / 2.0_f64.sqrt()).abs() < 1e-15);
-    let truth = Trajectory::truth(&scene("spring-ball"), 1.0, 2).unwrap();
+    let reference_solution = Trajectory::reference_solution(&scene("spring-ball"), 1.0, 2).unwrap();
     let shifted = |shifts: &[f64]| -> Vec<Positions> {
-        let rows = truth.states.iter().zip(shifts);
+        let rows = reference_solution.states.iter().zip(shifts);
         rows.map(|(state, shift)| vec![state.positions()[0] + Vector3::x() * *shift]).collect()
     };
-    assert!((truth.error(&shifted(&[0.0, 1.0, 1.0])) - (2.0_f64 / 3.0).sqrt()).abs() < 1e-12);
-    assert_eq!(truth.error(&shifted(&[0.0, 1.0])), f64::INFINITY);
-    assert_eq!(truth.error(&shifted(&[0.0, 1.0, f64::NAN])), f64::INFINITY);
+    assert!(
+        (reference_solution.error(&shifted(&[0.0, 1.0, 1.0])) - (2.0_f64 / 3.0).sqrt()).abs()
+            < 1e-12
+    );
+    assert_eq!(reference_solution.error(&shifted(&[0.0, 1.0])), f64::INFINITY);
+    assert_eq!(reference_solution.error(&shifted(&[0.0, 1.0, f64::NAN])), f64::INFINITY);
 }
 
 #[test]
@@ -212,7 +223,8 @@ fn the_papers_mechanisms_are_worth_comparing_for_half_a_second() {
     let head = ["growth over 0.5 s", "at most", "beyond 1e3 at [s]"];
     block("docs/reference-solvers.md", "growth", &table(&head, &rows));
     for (name, bound) in [("five-bar-a", 1e-11), ("3rrr-2", 1e-6)] {
-        let uncertainty = Trajectory::truth(&scene(name), 0.5, 10).unwrap().largest_uncertainty();
+        let uncertainty =
+            Trajectory::reference_solution(&scene(name), 0.5, 10).unwrap().largest_uncertainty();
         assert!(uncertainty < bound, "{name}: {uncertainty:e}");
     }
 }

@@ -3,8 +3,8 @@
 use crate::geometry::Geometry;
 use crate::model::{StatesIn, Terms};
 
-pub(crate) use crate::record::apply;
-pub use crate::record::{Record, Wrench};
+pub(crate) use crate::force_pair::apply;
+pub use crate::force_pair::{ForcePair, Wrench};
 
 /// Whether the dampers' forces are part of an evaluation.
 pub trait Dampers {

@@ -7,7 +7,7 @@ use crate::space::Linear;
 
 /// The displacement from one point to another, and its length relative to a free one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Reach<V: Linear> {
+pub struct Elongation<V: Linear> {
     /// \[m\] world axes.
     pub way: V,
     /// \[m²\] the square minus that of the free length, `None` where the displacement is as precise.
@@ -29,10 +29,10 @@ pub struct AtRest<V: Linear> {
 impl<V: Linear> AtRest<V> {
     /// The displacement for a centre `off` \[m\] from its reference position.
     #[inline(always)]
-    pub(crate) fn reach(&self, off: V) -> Reach<V> {
+    pub(crate) fn elongation(&self, off: V) -> Elongation<V> {
         let way = self.way - off;
         // |a − b|² − |a|² = −b·(a + (a − b)).
-        Reach { way, more: Some(self.more - off.dot(self.way + way)) }
+        Elongation { way, more: Some(self.more - off.dot(self.way + way)) }
     }
 }
 

@@ -9,12 +9,12 @@ use crate::geometry::Geometry;
 use crate::model::{Group, Law, ModelRef, Terms};
 use crate::pose::{End, Placed, Places, placed};
 use crate::real::Real;
-use crate::solve::pencil::{Pencil, weight_of};
+use crate::solve::matrix_weights::{MatrixWeights, weight_of};
 use crate::space::{Linear as _, Space, Vector as _};
 
 /// The centre, the axis and the weights of a lumped joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Seat<S: Space> {
+pub struct LumpedJoint<S: Space> {
     /// \[m\] the lever arms of its centre, in the axes of each body.
     pub(super) arms: [S::Vector; 2],
     /// \[1\] unit axis in the first body's axes.
@@ -32,28 +32,29 @@ const ALIKE: f64 = 1e-3;
 pub(crate) fn find<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
-    pencil: Pencil<P::Real>,
-    seats: &mut [Seat<P::Space>],
+    matrix_weights: MatrixWeights<P::Real>,
+    lumped_joints: &mut [LumpedJoint<P::Space>],
 ) {
-    for ((number, group), seat) in model.groups.iter().enumerate().zip(seats) {
+    for ((number, group), lumped_joint) in model.groups.iter().enumerate().zip(lumped_joints) {
         let known = T::TSDAS && group.law == Law::Tsda && group.elements() > 1;
         if known && group.clearance.row().is_none() {
-            *seat = seat_of(model, places, (number, group), pencil).unwrap_or_default();
+            *lumped_joint =
+                lumped_joint_of(model, places, (number, group), matrix_weights).unwrap_or_default();
         }
     }
 }
 
 /// \[m\] from the joint's bodies to the first point of an element.
 fn arms<P: Geometry>(element: &Placed<'_, P::Vector>) -> [P::Vector; 2] {
-    [element.arm_a, element.arm_b - element.stretch.displacement]
+    [element.arm_a, element.arm_b - element.deformation.displacement]
 }
 
-fn seat_of<P: Geometry, T: Terms<P>>(
+fn lumped_joint_of<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     (number, group): (usize, &Group),
-    pencil: Pencil<P::Real>,
-) -> Option<Seat<P::Space>> {
+    matrix_weights: MatrixWeights<P::Real>,
+) -> Option<LumpedJoint<P::Space>> {
     let zero = P::Real::ZERO;
     let all = || (0..group.elements()).map(|i| placed(model, places, (number, group), i));
     let mut centre = [P::Vector::ZERO; 2];
@@ -69,7 +70,7 @@ fn seat_of<P: Geometry, T: Terms<P>>(
     let (mut axis, mut square, mut far) = (P::Vector::ZERO, zero, zero);
     for element in all() {
         let element = element?;
-        for arm in [element.arm_a, element.arm_b, element.stretch.displacement] {
+        for arm in [element.arm_a, element.arm_b, element.deformation.displacement] {
             far = P::Real::pick(far.less_than(arm.dot(arm)), arm.dot(arm), far);
         }
         let away = offset(&element);
@@ -82,17 +83,17 @@ fn seat_of<P: Geometry, T: Terms<P>>(
     if square < rounding * rounding * far {
         (axis, square) = (P::Vector::ZERO, zero);
     }
-    let reach = square.sqrt();
-    let inverse = reach.reciprocal_or_zero();
+    let elongation = square.sqrt();
+    let inverse = elongation.reciprocal_or_zero();
     let axis = axis * inverse;
     let mut found = Row::<P>::EMPTY;
     let mut sums = [zero; 2];
     for (i, element) in all().enumerate() {
         let element = element?;
-        let d = element.stretch.displacement;
+        let d = element.deformation.displacement;
         let u = d * d.dot(d).sqrt().reciprocal_or_zero();
         let moment = (offset(&element) * inverse).cross(u);
-        let weight = weight_of(model, group, (i, element.index), pencil)?;
+        let weight = weight_of(model, group, (i, element.index), matrix_weights)?;
         P::Space::row(u, moment).add_square(weight, &mut found);
         sums = [sums[0] + weight * u.dot(u), sums[1] + weight * moment.dot(moment)];
     }
@@ -104,7 +105,7 @@ fn seat_of<P: Geometry, T: Terms<P>>(
     if zero < point && Row::<P>::are_near(&found, &meant, P::Real::from_f64(ALIKE) * point) {
         let [a, b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
         let arms = [a.to_axes(centre[0]), b.to_axes(centre[1])];
-        Some(Seat { arms, axis: a.to_axes(axis), point, across: across * square })
+        Some(LumpedJoint { arms, axis: a.to_axes(axis), point, across: across * square })
     } else {
         None
     }
@@ -117,31 +118,31 @@ mod tests {
     use super::*;
     use crate::index::BodyIndex;
     use crate::model::ModelOwner;
+    use crate::model_spec::{ModelSpec, Spring, Start};
     use crate::pose::place_bodies;
-    use crate::sketch::{Sketch, Spring, Start};
     use crate::state::State;
 
     const PLACES: [[f64; 3]; 4] =
         [[0.3, 0.0, 0.0], [0.1, 0.7, 0.3], [1.3, -0.017, 2.9], [-0.77, 0.011, 0.003]];
 
     /// Bodies on spherical joints at the origin.
-    const SKETCH: Sketch = {
+    const MODEL_SPEC: ModelSpec = {
         const SPRING: Spring = Spring { stiffness: 1e4, damping: 1e2, free_length: 0.05 };
-        let mut sketch = Sketch::new();
+        let mut model_spec = ModelSpec::new();
         let mut i = 0;
         while i < PLACES.len() {
             let [x, y, z] = PLACES[i];
             let arms = [[0.05 - x, -y, -z], [-x, 0.05 - y, -z], [-x, -y, 0.05 - z]];
             let between = [BodyIndex::WORLD, BodyIndex(i as u16)];
-            sketch = sketch.body(1.0, [0.01; 3], Start::at(PLACES[i]));
-            sketch = sketch.stars(between, &[[0.0; 3]], &arms, SPRING);
+            model_spec = model_spec.body(1.0, [0.01; 3], Start::at(PLACES[i]));
+            model_spec = model_spec.triples(between, &[[0.0; 3]], &arms, SPRING);
             i += 1;
         }
-        sketch
+        model_spec
     };
 
-    crate::model!(static DOUBLE: F64 = SKETCH);
-    crate::model!(static SINGLE: F32 = SKETCH);
+    crate::model!(static DOUBLE: F64 = MODEL_SPEC);
+    crate::model!(static SINGLE: F32 = MODEL_SPEC);
 
     fn are_points<M: ModelOwner>(model: &M) {
         let state = State::initial(model);
@@ -149,11 +150,11 @@ mod tests {
         place_bodies::<M::Precision>(state.bodies.as_ref(), frames.as_mut());
         let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
         let (zero, one) = (crate::model::RealOf::<M>::ZERO, crate::model::RealOf::<M>::ONE);
-        let pencil = Pencil { mass: one, damping: one, stiffness: one };
-        let mut seats = [Seat::default(); PLACES.len()];
-        find(&model.view(), places, pencil, &mut seats);
-        for seat in seats {
-            assert!(seat.point > one && seat.across == zero, "{seat:?}");
+        let matrix_weights = MatrixWeights { mass: one, damping: one, stiffness: one };
+        let mut lumped_joints = [LumpedJoint::default(); PLACES.len()];
+        find(&model.view(), places, matrix_weights, &mut lumped_joints);
+        for lumped_joint in lumped_joints {
+            assert!(lumped_joint.point > one && lumped_joint.across == zero, "{lumped_joint:?}");
         }
     }
 

@@ -1,8 +1,8 @@
 //! A model that a person writes in a `const` has the bits of the run-time builder's.
 
-use dbd_kernel::builder::Stars;
+use dbd_kernel::builder::Triples;
 use dbd_kernel::model;
-use dbd_kernel::sketch::{Sketch, Spring, Start};
+use dbd_kernel::model_spec::{ModelSpec, Spring, Start};
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BodyIndex, BodyState, F32, F64, Geometry, Leapfrog, Load, LoadFrame, ModelOwner, Plant, Real,
@@ -28,11 +28,11 @@ const BUSHING: Spring = Spring { stiffness: 2e3, damping: 0.0, free_length: 0.0 
 const TIE: Spring = Spring { stiffness: 7e3, damping: 0.7, free_length: 0.25 };
 const FORCE: [f64; 3] = [0.0, 5.0, -0.0];
 
-const SKETCH: Sketch = Sketch::new()
+const MODEL_SPEC: ModelSpec = ModelSpec::new()
     .gravity(GRAVITY)
     .body(0.7, INERTIAS[0], FIRST)
     .body(2.3, INERTIAS[1], Start::at([0.8, 0.1, -0.2]))
-    .stars([WORLD, CRANK], &CENTRES, &ARMS, JOINT)
+    .triples([WORLD, CRANK], &CENTRES, &ARMS, JOINT)
     .tsda([CRANK, ROD], [[0.1, 0.0, 0.0], [-0.2, -0.1, 0.1]], BUSHING)
     .tsda([ROD, WORLD], [[0.1, -0.0, 0.0], [1.0, 0.5, 0.0]], TIE)
     .torsion_spring([CRANK, ROD], [0.0, 0.0, 1.0], 12.0, 0.3, 0.5)
@@ -45,8 +45,8 @@ const SKETCH: Sketch = Sketch::new()
         until: 0.05,
     });
 
-model!(static IN_F64: F64 = SKETCH);
-model!(static IN_F32: F32 = SKETCH);
+model!(static IN_F64: F64 = MODEL_SPEC);
+model!(static IN_F32: F32 = MODEL_SPEC);
 
 /// The same mechanism, built at run time.
 fn built<P: Geometry>() -> Bench<P> {
@@ -57,7 +57,7 @@ fn built<P: Geometry>() -> Bench<P> {
     model.add_body(0.7, INERTIAS[0], state(FIRST)).unwrap();
     model.add_body(2.3, INERTIAS[1], state(Start::at([0.8, 0.1, -0.2]))).unwrap();
     model
-        .add_stars(Stars {
+        .add_triples(Triples {
             between: [WORLD, CRANK],
             centres: &CENTRES,
             arms: &ARMS,
@@ -102,7 +102,7 @@ fn a_sketch_has_the_bits_of_the_builders_model() {
 }
 
 #[test]
-fn a_sketch_rounds_once() {
+fn a_model_spec_rounds_once() {
     assert_eq!(IN_F32.bodies[1].inverse_mass, <f32 as Real>::from_f64(1.0 / 2.3));
-    assert_eq!(SKETCH.counts(), [2, 3, 9, 7, 1, 8, 1, 1, 1, 0, 0]);
+    assert_eq!(MODEL_SPEC.counts(), [2, 3, 9, 7, 1, 8, 1, 1, 1, 0, 0]);
 }

@@ -10,9 +10,9 @@ use crate::elements::universal::Universal;
 use crate::fixed::{Fixed, FixedPlace, FixedPoint, FixedTurn, FixedVelocity};
 use crate::geometry::{F32, F64};
 use crate::model::Model;
+use crate::model_spec::ModelSpec;
 use crate::planar::{Planar32, Planar64};
 use crate::plane::{Axial, Heading, Vec2};
-use crate::sketch::Sketch;
 use crate::vector::{Quaternion, Vec3};
 
 /// The first items, as many as in the model, each rounded.
@@ -93,9 +93,9 @@ macro_rules! models {
     ($($function:ident: $precision:ty, $real:ty, $vector:ident, $moment:ident, $inertia:ident,
         $quaternion:ident,
         stored $position:ident $turn:ident $velocity:ident $spin:ident $point:ident;)*) => {
-        impl Sketch {
+        impl ModelSpec {
             $(
-                /// The model in this precision; its sizes are [`Sketch::counts`].
+                /// The model in this precision; its sizes are [`ModelSpec::counts`].
                 ///
                 /// # Panics
                 /// Where an element refers to a body that does not exist; see [`Model::checked`]. In the plane, where a
@@ -215,14 +215,14 @@ models! {
         stored flat_f32 heading_f32 flat_f32 axial_f32 flat_f32;
 }
 
-/// A `static` model from a [`Sketch`] in a `const`, in precision `F64`, `F32` or `Fixed` or, for a model in the plane z
+/// A `static` model from a [`ModelSpec`] in a `const`, in precision `F64`, `F32` or `Fixed` or, for a model in the plane z
 /// = 0, `Planar64` or `Planar32`: the compiler counts its parts, rounds them once and checks every index.
 ///
 /// ```
-/// use dbd_kernel::sketch::{Sketch, Spring, Start};
+/// use dbd_kernel::model_spec::{ModelSpec, Spring, Start};
 /// use dbd_kernel::{BodyIndex, Leapfrog, Plant};
 ///
-/// const PENDULUM: Sketch = Sketch::new()
+/// const PENDULUM: ModelSpec = ModelSpec::new()
 ///     .gravity([0.0, -9.81, 0.0])
 ///     .body(1.0, [0.1; 3], Start::at([1.0, 0.0, 0.0]))
 ///     .tsda(
@@ -241,9 +241,9 @@ models! {
 ///
 /// ```compile_fail
 /// use dbd_kernel::BodyIndex;
-/// use dbd_kernel::sketch::{Sketch, Spring, Start};
+/// use dbd_kernel::model_spec::{ModelSpec, Spring, Start};
 ///
-/// const WRONG: Sketch = Sketch::new().body(1.0, [0.1; 3], Start::at([0.0; 3])).tsda(
+/// const WRONG: ModelSpec = ModelSpec::new().body(1.0, [0.1; 3], Start::at([0.0; 3])).tsda(
 ///     [BodyIndex::WORLD, BodyIndex(1)],
 ///     [[0.0; 3]; 2],
 ///     Spring { stiffness: 1.0, damping: 0.0, free_length: 1.0 },
@@ -254,47 +254,47 @@ models! {
 /// So is a part that is not in the plane of a planar model:
 ///
 /// ```compile_fail
-/// use dbd_kernel::sketch::{Sketch, Start};
+/// use dbd_kernel::model_spec::{ModelSpec, Start};
 ///
-/// const LIFTED: Sketch = Sketch::new().body(1.0, [0.1; 3], Start::at([0.0, 0.0, 0.5]));
+/// const LIFTED: ModelSpec = ModelSpec::new().body(1.0, [0.1; 3], Start::at([0.0, 0.0, 0.5]));
 /// dbd_kernel::model!(static MODEL: Planar64 = LIFTED);
 /// ```
 #[macro_export]
 macro_rules! model {
-    ($(#[$meta:meta])* $visible:vis static $name:ident: F64 = $sketch:path) => {
-        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::geometry::F64, model_f64 $sketch);
+    ($(#[$meta:meta])* $visible:vis static $name:ident: F64 = $model_spec:path) => {
+        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::geometry::F64, model_f64 $model_spec);
     };
-    ($(#[$meta:meta])* $visible:vis static $name:ident: F32 = $sketch:path) => {
-        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::geometry::F32, model_f32 $sketch);
+    ($(#[$meta:meta])* $visible:vis static $name:ident: F32 = $model_spec:path) => {
+        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::geometry::F32, model_f32 $model_spec);
     };
-    ($(#[$meta:meta])* $visible:vis static $name:ident: Fixed = $sketch:path) => {
-        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::fixed::Fixed, model_fixed $sketch);
+    ($(#[$meta:meta])* $visible:vis static $name:ident: Fixed = $model_spec:path) => {
+        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::fixed::Fixed, model_fixed $model_spec);
     };
-    ($(#[$meta:meta])* $visible:vis static $name:ident: Planar64 = $sketch:path) => {
-        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::planar::Planar64, model_planar64 $sketch);
+    ($(#[$meta:meta])* $visible:vis static $name:ident: Planar64 = $model_spec:path) => {
+        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::planar::Planar64, model_planar64 $model_spec);
     };
-    ($(#[$meta:meta])* $visible:vis static $name:ident: Planar32 = $sketch:path) => {
-        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::planar::Planar32, model_planar32 $sketch);
+    ($(#[$meta:meta])* $visible:vis static $name:ident: Planar32 = $model_spec:path) => {
+        $crate::model!(@ [$(#[$meta])* $visible] $name $crate::planar::Planar32, model_planar32 $model_spec);
     };
-    (@ [$($head:tt)*] $name:ident $precision:ty, $function:ident $sketch:path) => {
+    (@ [$($head:tt)*] $name:ident $precision:ty, $function:ident $model_spec:path) => {
         $($head)* static $name: $crate::model::Model<
             $precision,
-            { $sketch.counts()[0] },
-            { $sketch.counts()[1] },
-            { $sketch.counts()[2] },
-            { $sketch.counts()[3] },
-            { $sketch.counts()[4] },
-            { $sketch.counts()[5] },
-            { $sketch.counts()[6] },
-            { $sketch.counts()[7] },
-            { $sketch.counts()[8] },
+            { $model_spec.counts()[0] },
+            { $model_spec.counts()[1] },
+            { $model_spec.counts()[2] },
+            { $model_spec.counts()[3] },
+            { $model_spec.counts()[4] },
+            { $model_spec.counts()[5] },
+            { $model_spec.counts()[6] },
+            { $model_spec.counts()[7] },
+            { $model_spec.counts()[8] },
             0,
             0,
             0,
             0,
-            { $sketch.counts()[9] },
-            { $sketch.counts()[10] },
-            { if $sketch.counts()[5] > 0 { $sketch.counts()[0] } else { 0 } },
-        > = $sketch.$function();
+            { $model_spec.counts()[9] },
+            { $model_spec.counts()[10] },
+            { if $model_spec.counts()[5] > 0 { $model_spec.counts()[0] } else { 0 } },
+        > = $model_spec.$function();
     };
 }

@@ -1,6 +1,6 @@
 //! Forces on two bodies: wrenches, records, directions.
 //!
-//! `record => wrenches of its two bodies`.
+//! `force_pair => wrenches of its two bodies`.
 
 use crate::space::{Linear as _, Space};
 
@@ -25,7 +25,7 @@ impl<S: Space> Wrench<S> {
 /// The force pair of a group, world axes: force and torque on A, and the opposite of the torque on B; the force on B is
 /// the opposite of A's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Record<S: Space> {
+pub struct ForcePair<S: Space> {
     /// \[N\] force on A.
     pub force: S::Vector,
     /// \[N·m\] torque on A about its centre of mass.
@@ -34,7 +34,7 @@ pub struct Record<S: Space> {
     pub torque_b: S::Moment,
 }
 
-impl<S: Space> Record<S> {
+impl<S: Space> ForcePair<S> {
     pub(crate) const ZERO: Self =
         Self { force: S::Vector::ZERO, torque_a: S::Moment::ZERO, torque_b: S::Moment::ZERO };
 
@@ -69,13 +69,18 @@ impl<S: Space> Direction<S> {
 
 /// Adds a record to its two bodies; the world is skipped.
 #[inline(always)]
-pub(crate) fn apply<S: Space>(wrenches: &mut [Wrench<S>], a: usize, b: usize, record: &Record<S>) {
+pub(crate) fn apply<S: Space>(
+    wrenches: &mut [Wrench<S>],
+    a: usize,
+    b: usize,
+    force_pair: &ForcePair<S>,
+) {
     if let Some(wrench) = wrenches.get_mut(a) {
-        wrench.force = wrench.force + record.force;
-        wrench.torque = wrench.torque + record.torque_a;
+        wrench.force = wrench.force + force_pair.force;
+        wrench.torque = wrench.torque + force_pair.torque_a;
     }
     if let Some(wrench) = wrenches.get_mut(b) {
-        wrench.force = wrench.force - record.force;
-        wrench.torque = wrench.torque - record.torque_b;
+        wrench.force = wrench.force - force_pair.force;
+        wrench.torque = wrench.torque - force_pair.torque_b;
     }
 }

@@ -8,7 +8,7 @@ use crate::real::Real;
 
 /// The weights of mass, damping and stiffness in a matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pencil<R> {
+pub struct MatrixWeights<R> {
     /// \[1\] of masses.
     pub mass: R,
     /// \[s\] of damping coefficients.
@@ -17,7 +17,7 @@ pub struct Pencil<R> {
     pub stiffness: R,
 }
 
-impl<R: Real> Pencil<R> {
+impl<R: Real> MatrixWeights<R> {
     /// The weight of a spring and its damper.
     #[inline(always)]
     pub(super) fn weight(&self, stiffness: R, damping: R) -> R {
@@ -31,10 +31,10 @@ pub(super) fn weight_of<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     group: &Group,
     (i, index): (usize, usize),
-    pencil: Pencil<P::Real>,
+    matrix_weights: MatrixWeights<P::Real>,
 ) -> Option<P::Real> {
     let stiffness = model.element(group.law, index)?.stiffness();
-    Some(pencil.weight(stiffness, damping_of(model, group, i)))
+    Some(matrix_weights.weight(stiffness, damping_of(model, group, i)))
 }
 
 /// The damping coefficient of element `i` of a group, 0 without one.

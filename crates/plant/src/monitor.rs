@@ -14,7 +14,7 @@ use dbd_scene::{OneSided, Scene, SceneModel};
 
 use crate::any::AnyPlant;
 use crate::budget::{Budget, free_length};
-use crate::numerals::{Digits, Numerals};
+use crate::number_format::{Digits, NumberFormat};
 use dbd_scene::default_step::LARGEST_TURN;
 
 /// With unexplained energy, a joint's element that is longer than this many times the largest
@@ -34,7 +34,7 @@ const WARNED: f64 = 100.0;
 
 /// Why a run ended early.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Trouble {
+pub enum RunFailure {
     /// A step failed.
     Step(Cause),
     /// The energy of a sample is infinite or not a number, though no velocity is.
@@ -134,7 +134,7 @@ pub struct Verdict {
 }
 
 /// The model that runs, its stored words taken as exact in double precision.
-pub struct Judge {
+pub struct Monitor {
     model: SceneModel<F64>,
     /// The joint of each of the joints' groups, which come first.
     owners: Vec<usize>,
@@ -153,7 +153,7 @@ pub struct Judge {
     budget: Budget,
 }
 
-impl Judge {
+impl Monitor {
     /// The checker of a scene's plant.
     #[must_use]
     pub fn new(scene: &Scene, plant: &dyn AnyPlant) -> Self {
@@ -179,8 +179,8 @@ impl Judge {
         };
         let openings = lengths.iter().enumerate().map(opening).collect();
         // Guides are excluded: the distance of their points from the lines is not a size.
-        let stars = joints.iter().filter(|group| group.law == Law::Tsda);
-        let torn = TORN * stars.map(|group| free_length(model, group)).fold(0.0, f64::max);
+        let triples = joints.iter().filter(|group| group.law == Law::Tsda);
+        let torn = TORN * triples.map(|group| free_length(model, group)).fold(0.0, f64::max);
         let start = State::initial(model);
         let budget = Budget::new(model, &start, &energy(model, &start, step_size), unit(plant));
         let [extensions, beyond] = [(); 2].map(|()| vec![0.0; scene.joints.len()]);
@@ -228,11 +228,11 @@ impl Judge {
     /// Energy and extensions of a state.
     ///
     /// # Errors
-    /// A [`Trouble`] if the run cannot continue.
-    pub fn judge(&mut self, state: &State<SceneModel<F64>>) -> Result<Verdict, Trouble> {
+    /// A [`RunFailure`] if the run cannot continue.
+    pub fn monitor(&mut self, state: &State<SceneModel<F64>>) -> Result<Verdict, RunFailure> {
         let energy = self.measure(state);
         if !energy.total().is_finite() {
-            return Err(Trouble::Energy { body: fastest(state) });
+            return Err(RunFailure::Energy { body: fastest(state) });
         }
         let (joint, extension) = self.look(state);
         self.look_at_turns(state);
@@ -240,9 +240,9 @@ impl Judge {
         let time = state.step as f64 * self.step_size;
         if let Some(growth) = self.budget.beyond(&self.model, state, &energy, time) {
             return Err(if self.torn > 0.0 && extension > self.torn {
-                Trouble::Torn { joint, extension }
+                RunFailure::Torn { joint, extension }
             } else {
-                Trouble::Growth { growth, body: fastest(state) }
+                RunFailure::Growth { growth, body: fastest(state) }
             });
         }
         Ok(Verdict { energy, extension })
@@ -346,7 +346,7 @@ fn undriven(model: &SceneModel<F64>) -> bool {
 
 /// The relative rounding of the coarsest numbers of a plant's state.
 fn unit(plant: &dyn AnyPlant) -> f64 {
-    let Numerals { position, orientation, velocity, reading: _ } = plant.numerals();
+    let NumberFormat { position, orientation, velocity, reading: _ } = plant.number_format();
     match [position, orientation, velocity].contains(&Digits::Single) {
         true => f32::EPSILON.into(),
         false => f64::EPSILON,

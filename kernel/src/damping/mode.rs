@@ -3,16 +3,16 @@
 //! `(weight, time, 1/μ, kick's rate) => impulse per rate, impulse correction`.
 
 use crate::elements::share::Share;
+use crate::force_pair::Direction;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::pose::Places;
 use crate::real::Real;
-use crate::record::Direction;
 use crate::space::Linear as _;
 
 /// One damping mode of a joint, with its half-step coefficients at a pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Lever<P: Geometry> {
+pub struct DampingMode<P: Geometry> {
     /// \[√(N·s/m)\] force on the body in whose axes the mode is constant, that body's axes; for a raw spring world
     /// axes.
     pub(super) along: P::Vector,
@@ -77,7 +77,7 @@ impl Stop {
     }
 }
 
-impl<P: Geometry> Lever<P> {
+impl<P: Geometry> DampingMode<P> {
     /// Its direction for the ends of its joint: the body in whose axes it is constant and the other one.
     pub(super) fn direction(
         &self,
@@ -112,9 +112,9 @@ impl<P: Geometry> Lever<P> {
         let Share { own, later } = *share;
         let impulse = part * y;
         let given = own * half * part;
-        let told = [given + later * impulse, given + (one - (own + later)) * impulse];
+        let reported = [given + later * impulse, given + (one - (own + later)) * impulse];
         self.impulse = impulse;
-        self.less = told.map(|told| told * kicked);
+        self.less = reported.map(|reported| reported * kicked);
     }
 
     /// The linear combination of `c` times it and `s` times another.

@@ -16,14 +16,14 @@ use crate::words::{Word, WordSource};
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 #[repr(transparent)]
-pub struct Loose(pub f32);
+pub struct Approximate(pub f32);
 
 /// Approximate arithmetic, orientations as quaternions.
-pub type Loose32 = Float<Loose>;
+pub type Approximate32 = Float<Approximate>;
 
 macro_rules! operator {
     ($($operation:ident $function:ident $sign:tt;)*) => {
-        $(impl $operation for Loose {
+        $(impl $operation for Approximate {
             type Output = Self;
             #[inline(always)]
             fn $function(self, other: Self) -> Self {
@@ -40,7 +40,7 @@ operator! {
     Div div /;
 }
 
-impl Neg for Loose {
+impl Neg for Approximate {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -48,23 +48,23 @@ impl Neg for Loose {
     }
 }
 
-impl Named for Loose {
+impl Named for Approximate {
     type PassSum<S: Space> = <f32 as Named>::PassSum<S>;
     const NAME: &'static str = "f32-micromath";
 }
 
 /// The coefficients of single precision.
-const fn loose<const N: usize>(coefficients: &[f32]) -> [Loose; N] {
-    let mut all = [Loose(0.0); N];
+const fn approximate<const N: usize>(coefficients: &[f32]) -> [Approximate; N] {
+    let mut all = [Approximate(0.0); N];
     let mut i = 0;
     while i < N {
-        all[i] = Loose(coefficients[i]);
+        all[i] = Approximate(coefficients[i]);
         i += 1;
     }
     all
 }
 
-impl Real for Loose {
+impl Real for Approximate {
     one_lane!();
 
     const ZERO: Self = Self(0.0);
@@ -75,9 +75,11 @@ impl Real for Loose {
     const FRAC_PI_2: Self = Self(<f32 as Real>::FRAC_PI_2);
     const FRAC_PI_4: Self = Self(<f32 as Real>::FRAC_PI_4);
     const TAN_PI_8: Self = Self(<f32 as Real>::TAN_PI_8);
-    const ATAN: &'static [Self] = &loose::<{ <f32 as Real>::ATAN.len() }>(<f32 as Real>::ATAN);
-    const COS: &'static [Self] = &loose::<{ <f32 as Real>::COS.len() }>(<f32 as Real>::COS);
-    const SINC: &'static [Self] = &loose::<{ <f32 as Real>::SINC.len() }>(<f32 as Real>::SINC);
+    const ATAN: &'static [Self] =
+        &approximate::<{ <f32 as Real>::ATAN.len() }>(<f32 as Real>::ATAN);
+    const COS: &'static [Self] = &approximate::<{ <f32 as Real>::COS.len() }>(<f32 as Real>::COS);
+    const SINC: &'static [Self] =
+        &approximate::<{ <f32 as Real>::SINC.len() }>(<f32 as Real>::SINC);
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
@@ -125,7 +127,7 @@ mod tests {
         let mut worst = 0.0_f64;
         for i in 1..2000 {
             let x = f64::from(i) * 1e-3;
-            let root = Loose::from_f64(x).sqrt().to_f64() / libm::sqrt(x) - 1.0;
+            let root = Approximate::from_f64(x).sqrt().to_f64() / libm::sqrt(x) - 1.0;
             worst = worst.max(root.abs());
         }
         assert!((1e-3..0.1).contains(&worst), "{worst}");
