@@ -49,7 +49,7 @@ pub enum Cause {
         /// The first such body.
         body: BodyIndex,
     },
-    /// This body rotates farther in a step than the scheme allows: [`Scheme::MAX_TURN`](crate::Scheme::MOST_TURN),
+    /// This body rotates farther in a step than the scheme allows: [`Scheme::MAX_TURN`](crate::Scheme::MAX_TURN),
     /// less than [`MAX_TURN`].
     Turn {
         /// The first such body.

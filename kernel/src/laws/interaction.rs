@@ -238,7 +238,7 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     /// depend on inputs without it.
     const DRIVEN: bool = false;
     /// The largest number of further pairs of bodies on which it acts, up to
-    /// [`MAX_BRANCHES`](crate::laws::MOST_BRANCHES): with one tension along the sum of its own direction and of
+    /// [`MAX_BRANCHES`](crate::laws::MAX_BRANCHES): with one tension along the sum of its own direction and of
     /// theirs. Such a law has at most one damper.
     const BRANCHES: usize = 0;
     /// The outputs of [`Self::read`].

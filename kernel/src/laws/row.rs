@@ -51,7 +51,7 @@ pub trait Row<P: Geometry> {
     fn bodies(&self) -> [BodyIndex; 2];
     /// The number of its dampers.
     fn dampers(&self) -> usize;
-    /// [`Interaction::force_pair`](crate::laws::Interaction::record).
+    /// [`Interaction::force_pair`](crate::laws::Interaction::force_pair).
     fn force_pair(&self, seen: &Seen<'_, P>) -> Option<ForcePair<P::Space>>;
     /// [`Interaction::energy`](crate::laws::Interaction::energy).
     fn energy(&self, seen: &Seen<'_, P>) -> P::Real;

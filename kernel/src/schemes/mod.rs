@@ -61,7 +61,7 @@ pub trait Scheme: Copy {
     const MAX_VIBRATION: Option<Constant> = None;
     /// Memory per body that the scheme needs within a step, or from one to the next.
     type Memory<P: Geometry>: Copy + Default + Send;
-    /// Its storage in a plant: [`NoStorage`](crate::keep::Nothing), [`DampingModes`](crate::keep::Levers) for damping joint by
+    /// Its storage in a plant: [`NoStorage`](crate::keep::NoStorage), [`DampingModes`](crate::keep::DampingModes) for damping joint by
     /// joint, or a [`Matrix`](crate::keep::Matrix).
     type Storage: Storage;
 

@@ -108,7 +108,7 @@ fn retired(text: &str) -> Vec<String> {
             let is = |part: &&str| {
                 part.to_lowercase().trim_end_matches('s') == retired.trim_end_matches('s')
             };
-            if parts.len() < 5 && parts.iter().any(|part| is(part)) {
+            if parts.len() < 5 && parts.iter().any(is) {
                 found.push(format!("`{name}`: write {instead}"));
             }
         }

@@ -22,7 +22,7 @@ impl<'s> Cases<'s> {
         Self { spec }
     }
 
-    /// Their number; at most [`MAX_CASES`](crate::sweep::spec::MOST_CASES).
+    /// Their number; at most [`MAX_CASES`](crate::sweep::spec::MAX_CASES).
     #[must_use]
     pub fn len(&self) -> usize {
         self.spec.count() as usize
