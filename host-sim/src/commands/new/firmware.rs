@@ -83,7 +83,11 @@ pub fn firmware(arguments: &PlantArguments, found: &Found) -> Result<String, New
         dependencies.origin,
         choice.words(),
         choice.reasons.iter().map(|reason| format!("  {reason}\n")).collect::<String>(),
-        if estimate.is_empty() { "no comparable scene was measured" } else { &estimate },
+        if estimate.is_empty() {
+            "counted there, without an estimate for this scene"
+        } else {
+            &estimate
+        },
     ))
 }
 
