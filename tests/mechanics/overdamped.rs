@@ -208,7 +208,7 @@ fn strong_dampers_let_creep_what_they_should() {
             row("`pefrl`".to_owned(), composed);
         }
         if i == 0 || crossing {
-            row("sweeps told of no kick".to_owned(), alone);
+            row("passes without the kick".to_owned(), alone);
         }
     }
     joint_wise.into_iter().for_each(|(title, errors)| row(title, errors));
@@ -282,7 +282,7 @@ fn suspensions_are_more_exact_at_equal_steps() {
             assert!((order - 2.0).abs() < 0.1, "{name}: {order}");
         }
     }
-    let head = ["", "step", "sweeps told of no kick [m]", "`leapfrog` [m]", "ratio"];
+    let head = ["", "step", "passes without the kick [m]", "`leapfrog` [m]", "ratio"];
     block("docs/schemes.md", "suspensions", &table(&head, &rows));
 }
 

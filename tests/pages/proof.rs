@@ -78,7 +78,7 @@ fn guards_cost_little_beside_their_step() {
         "instructions on a Cortex-M4F",
         "a step",
         "its guards",
-        "a look of the watch, mean",
+        "a check by the monitor, mean",
         "most",
         "and at the energy",
     ];

@@ -1,7 +1,7 @@
 //! The cost of guards relative to the guarded step.
 //!
 //! `(pairs, SysTick) => lines "guard SCENE SCHEMEVARIANT PRECISION STEP FAULT LOOK MAX ENERGY"`, all in
-//! instructions: a step with its guards; the guards of every step alone; a look of the watch at one
+//! instructions: a step with its guards; the guards of every step alone; a check by the monitor at one
 //! body's frequencies, mean and most over the bodies; what looking at the energy adds to it. Counted as
 //! in [`cost`](crate::cost).
 

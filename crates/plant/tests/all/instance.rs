@@ -150,7 +150,10 @@ fn what_is_wrong_is_said_with_what_would_be_right() {
         (one.set_input(7, 0.0).unwrap_err(), "no input `number 7`"),
         (one.input("forse").unwrap_err(), "no input `forse`"),
         (one.output("cart.xx").unwrap_err(), "did you mean `cart."),
-        (one.set_parameters([("body.cart.mass", f64::INFINITY)]).unwrap_err(), "cannot be inf"),
+        (
+            one.set_parameters([("body.cart.mass", f64::INFINITY)]).unwrap_err(),
+            "cannot be set to inf",
+        ),
         (one.set_parameters([("body.cart.mass", -1.0)]).unwrap_err(), "a finite number > 0 in kg"),
         (one.set_parameters([("body.cat.mass", 1.0)]).unwrap_err(), "did you mean `cart`?"),
     ] {
