@@ -3,7 +3,7 @@
 
 use dbd_plant::{DampingName, Frequencies, Method, PrecisionName, SchemeName};
 use dbd_scene::Scene;
-use dbd_study::reference::reference_solution::{Opinion, integrate};
+use dbd_study::reference::reference_solution::{Integrator, integrate};
 use dbd_study::reference::trajectory::{Positions, sample_times};
 use dbd_study::reference::{Mechanism, Trajectory};
 use dbd_tests::mechanisms::{JOINTS, Kind, mechanism};
@@ -42,7 +42,7 @@ fn named(warning: &str) -> f64 {
 fn reference_solution(scene: &Scene) -> Trajectory {
     let (mechanism, start) = Mechanism::of(scene);
     let times = sample_times(WINDOW, SAMPLES);
-    let states = integrate(Opinion::Dop853, &mechanism, &start, &times).unwrap();
+    let states = integrate(Integrator::Dop853, &mechanism, &start, &times).unwrap();
     let uncertainty = vec![0.0; times.len()];
     Trajectory { times, states, uncertainty }
 }

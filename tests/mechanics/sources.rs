@@ -11,7 +11,7 @@ use dbd_kernel::{
 };
 use dbd_scene::{Scene, SceneModel};
 use dbd_study::reference::Mechanism;
-use dbd_study::reference::reference_solution::{Opinion, integrate};
+use dbd_study::reference::reference_solution::{Integrator, integrate};
 use dbd_study::reference::state::State;
 use dbd_tests::at;
 
@@ -46,7 +46,7 @@ fn end_in<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, step: f64) -> f64 {
 /// x after a second by an integrator of order 8 that has its own tables.
 fn reference_solution(scene: &Scene) -> f64 {
     let (mechanism, start) = Mechanism::of(scene);
-    let states: Vec<State> = integrate(Opinion::Dop853, &mechanism, &start, &[1.0]).unwrap();
+    let states: Vec<State> = integrate(Integrator::Dop853, &mechanism, &start, &[1.0]).unwrap();
     states[0].bodies[0].position.x
 }
 

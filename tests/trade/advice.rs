@@ -10,7 +10,7 @@ use dbd_scene::Scene;
 use dbd_study::recommend::{Ends, FURTHER, Limit, Mcu, Recommendation, Request, recommend};
 use dbd_study::reference::State;
 use dbd_study::reference::fine::states;
-use dbd_study::reference::reference_solution::Opinion;
+use dbd_study::reference::reference_solution::Integrator;
 use dbd_study::variants::distance;
 use dbd_tests::mechanisms::{JOINTS, Kind, mechanism};
 use dbd_tests::{results, scene, scene_names};
@@ -81,7 +81,7 @@ fn held(scene: &Scene, window: Option<f64>) -> Result<Held, String> {
     let mut stable = true;
     while stable && plant.steps() < all {
         let some = (all / 500).max(1).min(all - plant.steps());
-        stable = plant.advance(some).is_running() && monitor.monitor(&plant.state()).is_ok();
+        stable = plant.advance(some).is_running() && monitor.check(&plant.state()).is_ok();
     }
     let ends = advice.ends.as_ref().is_none_or(|ends| comes_apart(scene, ends));
     Ok(Held { steps: plant.steps(), stable, ends, elsewhere: elsewhere(scene, &advice), advice })
@@ -94,7 +94,7 @@ fn comes_apart(scene: &Scene, ends: &Ends) -> bool {
     let mut plant = plant(scene, &method, step).unwrap();
     let mut monitor = Monitor::new(scene, plant.as_ref());
     while plant.time() < FURTHER * scene.duration {
-        if !plant.advance(50).is_running() || monitor.monitor(&plant.state()).is_err() {
+        if !plant.advance(50).is_running() || monitor.check(&plant.state()).is_err() {
             return true;
         }
         let open = |joint: &String| {
@@ -109,7 +109,7 @@ fn comes_apart(scene: &Scene, ends: &Ends) -> bool {
     false
 }
 
-/// \[m\] how far the advised way is from the second opinion, at other times than it was judged by.
+/// \[m\] distance of the advised method from the second solution, at other times than the choice used.
 fn elsewhere(scene: &Scene, advice: &Recommendation) -> Option<f64> {
     let (model, method) = taken(scene, advice);
     let step = advice.way.step;
@@ -119,7 +119,7 @@ fn elsewhere(scene: &Scene, advice: &Recommendation) -> Option<f64> {
         return None;
     }
     let times: Vec<f64> = (0..=steps / stride).map(|row| (row * stride) as f64 * step).collect();
-    let reference_solution = states(Opinion::Verner98, scene, false, &times).unwrap();
+    let reference_solution = states(Integrator::Verner98, scene, false, &times).unwrap();
     let mut plant = plant(&model, &method, step).unwrap();
     let mut run = vec![State::of(&plant.state())];
     while run.len() < times.len() {

@@ -50,7 +50,7 @@ impl Baseline {
     pub fn check(&self, key: &Key, counts: &[Count]) -> Result<()> {
         let text = std::fs::read_to_string(root().join(self.file));
         let rows = self.read(&text.with_context(|| format!("cannot read {}", self.file))?)?;
-        self.monitor(key, &rows, counts)
+        self.check_rows(key, &rows, counts)
     }
 
     /// Writes counts as those of their key, beside those of others.
@@ -75,7 +75,7 @@ impl Baseline {
         Ok(())
     }
 
-    fn monitor(&self, key: &Key, rows: &[Row], counts: &[Count]) -> Result<()> {
+    fn check_rows(&self, key: &Key, rows: &[Row], counts: &[Count]) -> Result<()> {
         let Key { compiler, target } = key;
         let names = self.names.replace(',', " ");
         let own: Vec<&Row> = rows.iter().filter(|row| row.key == *key).collect();
@@ -165,23 +165,23 @@ mod tests {
 
     #[test]
     fn a_count_stays_in_its_band() {
-        let monitor = |of| FILE.monitor(&here(), &rows(), &counts(of));
-        assert!(monitor([10_190, 49_010]).is_ok());
-        assert!(monitor([10_210, 50_000]).is_err());
-        assert!(monitor([10_000, 48_990]).is_err());
+        let check_rows = |of| FILE.check_rows(&here(), &rows(), &counts(of));
+        assert!(check_rows([10_190, 49_010]).is_ok());
+        assert!(check_rows([10_210, 50_000]).is_err());
+        assert!(check_rows([10_000, 48_990]).is_err());
     }
 
     #[test]
     fn a_row_too_few_or_too_many_is_an_error() {
         let both = counts([10_000, 50_000]);
-        assert!(FILE.monitor(&here(), &rows(), &both[..1]).is_err());
-        assert!(FILE.monitor(&here(), &rows()[..1], &both).is_err());
+        assert!(FILE.check_rows(&here(), &rows(), &both[..1]).is_err());
+        assert!(FILE.check_rows(&here(), &rows()[..1], &both).is_err());
     }
 
     #[test]
     fn a_key_without_rows_is_not_judged() {
         for other in [key("rustc 1.95.0", &here().target), key(&here().compiler, "x86_64")] {
-            assert!(FILE.monitor(&other, &rows(), &counts([1, 2])).is_ok());
+            assert!(FILE.check_rows(&other, &rows(), &counts([1, 2])).is_ok());
         }
     }
 

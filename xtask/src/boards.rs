@@ -68,7 +68,7 @@ pub fn execute(toolchain: &Toolchain, programs: &[&str]) -> Result<()> {
         let mut command = cargo_in(toolchain, "run", &[program], &features);
         let lines = serial::run(command.arg("--quiet"), TIME_LIMIT);
         let lines = lines.with_context(|| format!("{FOLDER}, {program}"))?;
-        monitor(&lines, &golden).with_context(|| format!("{FOLDER}, {program}"))?;
+        check(&lines, &golden).with_context(|| format!("{FOLDER}, {program}"))?;
     }
     Ok(())
 }
@@ -122,7 +122,7 @@ struct Pace {
 
 /// Whether a program's hashes are the golden ones and its overruns those that must be: none but in the last run, which
 /// asks for more than the chip can do.
-fn monitor(lines: &[String], golden: &Hashes) -> Result<()> {
+fn check(lines: &[String], golden: &Hashes) -> Result<()> {
     // Every line, for the last run steps the same scene as the one before.
     let found: Vec<Hashes> =
         lines.iter().map(|line| hashes::parse(slice::from_ref(line))).collect();
@@ -184,7 +184,7 @@ mod tests {
         let mut lines = WELL.map(str::to_owned).to_vec();
         let golden = hashes::parse(&lines);
         change(&mut lines);
-        monitor(&lines, &golden).err().map(|error| error.to_string()).unwrap_or_default()
+        check(&lines, &golden).err().map(|error| error.to_string()).unwrap_or_default()
     }
 
     #[test]

@@ -117,7 +117,7 @@ fn budgets(of: Build) -> Result<Times> {
     Ok(read(&text, of.name()))
 }
 
-fn monitor(times: &Times, budgets: &Times) -> Result<()> {
+fn check(times: &Times, budgets: &Times) -> Result<()> {
     let over = over(times, budgets);
     if over.is_empty() {
         return Ok(());
@@ -146,7 +146,7 @@ pub fn run(builds: &[Build], write: bool) -> Result<()> {
         let budgets = budgets(*build)?;
         print!("{}", table(&times, &budgets));
         if !write {
-            monitor(&times, &budgets)?;
+            check(&times, &budgets)?;
             continue;
         }
         let commit = output(program("git").args(["log", "-1", "--format=%h,%cs"]))?;

@@ -45,7 +45,7 @@ pub fn run() -> Result<()> {
         .with_context(|| format!("cannot write {FILE}"))?;
     println!("written: {FILE}");
     crate::provenance::note(&[FILE])?;
-    monitor(&rows, &SIZES)
+    check_growth(&rows, &SIZES)
 }
 
 /// The step of `cargo xtask test`: two small sizes, of a program that the tests' build has built.
@@ -56,7 +56,7 @@ pub fn check(built: &[Program]) -> Result<()> {
     setup::counter()?;
     let rows = rows(built, &FEW)?;
     println!("{}", table(&rows, &FEW));
-    monitor(&rows, &FEW)
+    check_growth(&rows, &FEW)
 }
 
 fn rows(built: &[Program], sizes: &[u64]) -> Result<Vec<Row>> {
@@ -82,7 +82,7 @@ fn exponents(counts: &[u64], sizes: &[u64]) -> Vec<f64> {
 }
 
 /// The last two sizes tell: at first what is paid once per scene hides the growth.
-fn monitor(rows: &[Row], sizes: &[u64]) -> Result<()> {
+fn check_growth(rows: &[Row], sizes: &[u64]) -> Result<()> {
     let above = rows.iter().filter_map(|row| {
         let last = exponents(&row.counts, sizes).last().copied()?;
         (last > MAX).then(|| format!("{} grows with the exponent {last:.2}", row.way))
@@ -128,9 +128,9 @@ mod tests {
     #[test]
     fn what_is_quadratic_is_refused() {
         let row = |counts: [u64; 2]| [Row { way: "load", counts: counts.to_vec() }];
-        assert!(monitor(&row([1_000, 4_100]), &FEW).is_ok());
-        assert!(monitor(&row([1_000, 4_300]), &FEW).is_err());
-        assert!(monitor(&row([1_000, 16_000]), &FEW).is_err());
+        assert!(check_growth(&row([1_000, 4_100]), &FEW).is_ok());
+        assert!(check_growth(&row([1_000, 4_300]), &FEW).is_err());
+        assert!(check_growth(&row([1_000, 16_000]), &FEW).is_err());
         assert_eq!(exponents(&[10, 100, 10_000], &[10, 100, 1_000]), [1.0, 2.0]);
     }
 }

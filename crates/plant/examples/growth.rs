@@ -56,7 +56,7 @@ fn run(way: &str, links: usize) -> Result<usize, String> {
         "run" => Ok(counted_work(&|| {
             let Ok(plant) = plant(&scene, &Method::default(), STEP) else { return 0 };
             let mut monitor = Monitor::new(&scene, plant.as_ref());
-            usize::from(monitor.monitor(&plant.state()).is_ok())
+            usize::from(monitor.check(&plant.state()).is_ok())
         })),
         _ => Err(format!("there is no way `{way}`")),
     }

@@ -234,7 +234,7 @@ impl Search<'_> {
         let mut monitor = Monitor::new(self.scene, plant.as_ref());
         let (mut done, mut sample) = (0, 0);
         loop {
-            if monitor.monitor(&plant.state()).is_err() {
+            if monitor.check(&plant.state()).is_err() {
                 return false;
             }
             if done == run.steps {

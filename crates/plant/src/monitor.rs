@@ -229,7 +229,7 @@ impl Monitor {
     ///
     /// # Errors
     /// A [`RunFailure`] if the run cannot continue.
-    pub fn monitor(&mut self, state: &State<SceneModel<F64>>) -> Result<Verdict, RunFailure> {
+    pub fn check(&mut self, state: &State<SceneModel<F64>>) -> Result<Verdict, RunFailure> {
         let energy = self.measure(state);
         if !energy.total().is_finite() {
             return Err(RunFailure::Energy { body: fastest(state) });

@@ -216,7 +216,7 @@ fn a_run_that_fails_says_why_as_run_does() {
     let mut plain = plant(scene, &method, plan.step).unwrap();
     let mut monitor = Monitor::new(scene, plain.as_ref());
     let run_failure = loop {
-        if let Err(run_failure) = monitor.monitor(&plain.state()) {
+        if let Err(run_failure) = monitor.check(&plain.state()) {
             break run_failure;
         }
         if let dbd_kernel::Status::Failed(failure) = plain.advance(plan.unseen()) {

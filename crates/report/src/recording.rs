@@ -246,7 +246,7 @@ readout = [
         let mut all = Vec::new();
         for _ in 0..samples {
             let state = plant.state();
-            let energy = monitor.monitor(&state).ok().unwrap().energy;
+            let energy = monitor.check(&state).ok().unwrap().energy;
             let mut readings = Vec::new();
             for info in &scene.readouts {
                 let reading = plant.read(&info.readout).filter(|_| numbers);

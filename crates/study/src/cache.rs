@@ -28,7 +28,7 @@ pub struct Head {
     pub grid: Grid,
     /// By how much a perturbation has grown at its end.
     pub growth: f64,
-    /// \[m\] largest distance between the reference solution and its second opinion.
+    /// \[m\] largest distance between the reference solution and that of the second integrator.
     pub uncertainty: f64,
     /// Whether bodies rotate about more than one axis.
     pub in_space: bool,

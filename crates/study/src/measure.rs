@@ -83,7 +83,7 @@ impl<'c> Comparison<'c> {
             Way::LinearlyImplicitEuler => {
                 let (mechanism, start) = Mechanism::of(self.scene);
                 let mut implicit = Implicit::new(&mechanism, start, step);
-                self.monitor(|samples| {
+                self.accuracy_of(|samples| {
                     for sample in 0..self.reference_solution.len() {
                         if sample > 0 && !(0..steps).all(|_| implicit_step(&mut implicit)) {
                             return;
@@ -104,7 +104,7 @@ impl<'c> Comparison<'c> {
                 return UNSTABLE;
             }
             let state = plant.state();
-            let Ok(verdict) = monitor.monitor(&state) else { return UNSTABLE };
+            let Ok(verdict) = monitor.check(&state) else { return UNSTABLE };
             let total = verdict.energy.total();
             let error: f64 = total - *initial.get_or_insert(total);
             squares += error * error;
@@ -117,7 +117,7 @@ impl<'c> Comparison<'c> {
     fn naive(&self, step: f64, steps: u64, advance: impl Fn(&mut Naive<'_>)) -> Accuracy {
         let (mechanism, start) = Mechanism::of(self.scene);
         let mut naive = Naive::new(&mechanism, start, step);
-        self.monitor(|samples| {
+        self.accuracy_of(|samples| {
             for sample in 0..self.reference_solution.len() {
                 if sample > 0 {
                     (0..steps).for_each(|_| advance(&mut naive));
@@ -131,7 +131,7 @@ impl<'c> Comparison<'c> {
         })
     }
 
-    fn monitor(&self, run: impl FnOnce(&mut Vec<State>)) -> Accuracy {
+    fn accuracy_of(&self, run: impl FnOnce(&mut Vec<State>)) -> Accuracy {
         let mut samples = Vec::with_capacity(self.reference_solution.len());
         run(&mut samples);
         self.judged(&samples, None)

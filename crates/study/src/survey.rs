@@ -13,7 +13,7 @@ use std::thread;
 
 use crate::reference::fine::states;
 use crate::reference::metric::Metric;
-use crate::reference::reference_solution::{NoReferenceSolution, Opinion};
+use crate::reference::reference_solution::{Integrator, NoReferenceSolution};
 use crate::reference::window::{GROWTH, before_chaos};
 use crate::reference::{Mechanism, State};
 use dbd_plant::Method;
@@ -60,8 +60,8 @@ pub enum Phase {
     Window,
     /// Computing the reference solution.
     ReferenceSolution,
-    /// Its second opinion.
-    Opinion,
+    /// The solution of a second integrator.
+    SecondSolution,
     /// The largest stable steps.
     Limits,
     /// Runs for accuracy: work done and all work, in force evaluations.
@@ -151,7 +151,7 @@ pub fn survey(
             Some(reference_solution) => reference_solution,
             None => {
                 progress(Phase::ReferenceSolution);
-                states(Opinion::Dop853, scene, false, &grid.times())?
+                states(Integrator::Dop853, scene, false, &grid.times())?
             }
         };
         let comparison = Comparison::new(scene, grid, &reference_solution);
@@ -214,9 +214,9 @@ pub(crate) fn look(
     let last = window.times.iter().rposition(|time| *time <= window.end).unwrap_or(0).max(1);
     let grid = Grid::new(frame.unit, window.times[last]);
     progress(Phase::ReferenceSolution);
-    let reference_solution = states(Opinion::Dop853, scene, false, &grid.times())?;
-    progress(Phase::Opinion);
-    let second = states(Opinion::Verner98, scene, false, &grid.times())?;
+    let reference_solution = states(Integrator::Dop853, scene, false, &grid.times())?;
+    progress(Phase::SecondSolution);
+    let second = states(Integrator::Verner98, scene, false, &grid.times())?;
     let metric = Metric::of(&Mechanism::of(scene).0);
     let pairs = reference_solution.iter().zip(&second);
     let uncertainty = pairs.map(|(a, b)| metric.distance(a, b)).fold(0.0, f64::max);

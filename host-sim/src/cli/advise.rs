@@ -68,7 +68,7 @@ pub(super) fn advise_scene(
     let found = recommend(&scene, &request, &mut |phase| match phase {
         Phase::Window => progress.begin("time until chaotic motion"),
         Phase::ReferenceSolution => progress.begin("reference solution"),
-        Phase::Opinion => progress.begin("second reference solution"),
+        Phase::SecondSolution => progress.begin("second reference solution"),
         Phase::Limits => progress.begin("methods, cheapest first"),
         Phase::Variants => progress.begin("scene variants"),
         Phase::Runs(..) | Phase::Times(..) => {}

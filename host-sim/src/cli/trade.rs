@@ -59,7 +59,7 @@ pub(super) fn trade_scene(
     let done = trade(&scene, request, &mut |phase| match phase {
         Phase::Window => progress.begin("time until chaotic motion"),
         Phase::ReferenceSolution => progress.begin("reference solution"),
-        Phase::Opinion => progress.begin("second reference solution"),
+        Phase::SecondSolution => progress.begin("second reference solution"),
         Phase::Limits => progress.begin("largest stable steps"),
         Phase::Runs(done, all) => progress.update(done, all),
         Phase::Times(0, _) => progress.begin("measuring times"),

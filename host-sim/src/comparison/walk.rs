@@ -214,7 +214,7 @@ impl<'h> Walk<'h> {
         }
         for (row, (distance, body)) in furthest.into_iter().enumerate() {
             let quantity = &self.bodies[row];
-            monitor(&mut self.beyond, quantity, distance, Some(body), [a, b]);
+            check_band(&mut self.beyond, quantity, distance, Some(body), [a, b]);
         }
     }
 
@@ -242,7 +242,7 @@ impl<'h> Walk<'h> {
         for (row, quantity) in quantities.iter_mut().enumerate() {
             let values = [of_a[row], of_b[row]];
             number(quantity, "energy", values, [Digits::Double; 2], [a, b], seen);
-            monitor(&mut self.beyond, quantity, apart(values[0], values[1]), None, [a, b]);
+            check_band(&mut self.beyond, quantity, apart(values[0], values[1]), None, [a, b]);
         }
     }
 
@@ -251,7 +251,7 @@ impl<'h> Walk<'h> {
         for (pair, quantity) in self.pairing.values.iter().zip(&mut self.values) {
             let values = [a.values[pair.rows[0]], b.values[pair.rows[1]]];
             number(quantity, "readout", values, digits, [a, b], seen);
-            monitor(&mut self.beyond, quantity, apart(values[0], values[1]), None, [a, b]);
+            check_band(&mut self.beyond, quantity, apart(values[0], values[1]), None, [a, b]);
         }
     }
 }
@@ -279,7 +279,7 @@ fn number(
 }
 
 /// Keeps the first sample at which a quantity is beyond its band.
-fn monitor(
+fn check_band(
     beyond: &mut Option<Beyond>,
     quantity: &Quantity,
     distance: f64,

@@ -192,7 +192,7 @@ impl<'c> Course<'c> {
         observer: &mut dyn Observer,
     ) -> Result<Result<u64, RunFailure>, SimulationError> {
         let state = self.plant.state();
-        let verdict = match self.monitor.monitor(&state) {
+        let verdict = match self.monitor.check(&state) {
             Ok(verdict) => verdict,
             Err(run_failure) => return Ok(Err(run_failure)),
         };

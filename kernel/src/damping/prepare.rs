@@ -40,7 +40,7 @@ pub(crate) fn prepare<P: Geometry, T: Terms<P>, K: Kick<P>>(
         match stop.kind {
             Kind::Ground => {
                 if !reverse {
-                    reported(sweep, &stop, own);
+                    include_kick(sweep, &stop, own);
                 }
             }
             Kind::Joint => {
@@ -100,7 +100,7 @@ fn touches<P: Geometry, T: Terms<P>, K: Kick<P>>(
 
 /// Includes the kick in the modes of a joint to the ground.
 #[inline(always)]
-fn reported<P: Geometry, K: Kick<P>>(
+fn include_kick<P: Geometry, K: Kick<P>>(
     sweep: &Sweep<'_, P, K>,
     stop: &Stop,
     modes: &mut [DampingMode<P>],

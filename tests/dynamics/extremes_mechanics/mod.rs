@@ -126,7 +126,7 @@ fn follow(
         }
         let state = plant.state();
         assert!(state.bodies.iter().all(is_finite), "{method:?} {step}: {:?}", state.bodies);
-        if monitor.monitor(&state).is_err() {
+        if monitor.check(&state).is_err() {
             return End::Diverged;
         }
         let measured = measure(plant.time(), &state);

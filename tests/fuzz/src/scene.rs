@@ -136,7 +136,7 @@ fn run(scene: &Scene, random: &mut Rng) -> Result<(), Finding> {
         for readout in &scene.readouts {
             let _ = plant.read(&readout.readout);
         }
-        if !status.is_running() || monitor.monitor(&state).is_err() {
+        if !status.is_running() || monitor.check(&state).is_err() {
             break;
         }
     }

@@ -3,13 +3,11 @@
 //! `kernel, scene, plant, golden, node: sources => nothing, where the comment of every public field that
 //! holds numbers has a unit in brackets`. What has none says \[1\].
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use dbd_tests::results::path;
 use quote::ToTokens as _;
 use syn::visit::{Visit, visit_field};
-use syn::{Expr, ExprLit, Field, GenericArgument, Lit, Meta, PathArguments, Type, Visibility};
+use syn::{Field, GenericArgument, PathArguments, Type, Visibility};
+
+use crate::words::sources::{documentation, sources_below};
 
 /// Crates whose types users meet.
 const CRATES: [&str; 5] =
@@ -50,16 +48,6 @@ fn holds_numbers(of: &Type) -> bool {
     }
 }
 
-/// The comment of a field.
-fn comment(field: &Field) -> String {
-    let lines = field.attrs.iter().filter_map(|attribute| {
-        let Meta::NameValue(pair) = &attribute.meta else { return None };
-        let Expr::Lit(ExprLit { lit: Lit::Str(text), .. }) = &pair.value else { return None };
-        pair.path.is_ident("doc").then(|| text.value())
-    });
-    lines.collect()
-}
-
 /// The public fields of a file that hold numbers: how many, and those without a unit.
 #[derive(Default)]
 struct Fields {
@@ -71,7 +59,7 @@ impl<'s> Visit<'s> for Fields {
     fn visit_field(&mut self, field: &'s Field) {
         if matches!(field.vis, Visibility::Public(_)) && holds_numbers(&field.ty) {
             self.all += 1;
-            let comment = comment(field);
+            let comment = documentation(&field.attrs);
             if !(comment.contains("\\[") && comment.contains("\\]")) {
                 let name = field.ident.as_ref().map_or_else(String::new, ToString::to_string);
                 self.without.push(format!("{name}: {}", field.ty.to_token_stream()));
@@ -81,31 +69,18 @@ impl<'s> Visit<'s> for Fields {
     }
 }
 
-fn sources(folder: &Path, files: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let entry = entry.unwrap().path();
-        if entry.is_dir() {
-            sources(&entry, files);
-        } else if entry.extension().is_some_and(|extension| extension == "rs") {
-            files.push(entry);
-        }
-    }
-}
-
 #[test]
 fn every_public_number_has_a_unit() {
     let (mut all, mut wrong) = (0, Vec::new());
     for name in CRATES {
-        let mut files = Vec::new();
-        sources(&path(name).join("src"), &mut files);
-        for file in files {
-            if ANY_UNIT.iter().any(|end| file.ends_with(end)) {
+        for (file, text) in sources_below(&format!("{name}/src")) {
+            if ANY_UNIT.contains(&file.as_str()) {
                 continue;
             }
             let mut fields = Fields::default();
-            fields.visit_file(&syn::parse_file(&fs::read_to_string(&file).unwrap()).unwrap());
+            fields.visit_file(&syn::parse_file(&text).unwrap());
             all += fields.all;
-            wrong.extend(fields.without.iter().map(|field| format!("{}: {field}", file.display())));
+            wrong.extend(fields.without.iter().map(|field| format!("{file}: {field}")));
         }
     }
     assert!(wrong.is_empty(), "{} of {all} have no unit:\n{}", wrong.len(), wrong.join("\n"));

@@ -5,10 +5,11 @@
 
 use std::fs;
 
+use dbd_tests::results::path;
 use pulldown_cmark::{Event, Parser, Tag, TagEnd};
 
 use crate::words::messages::messages;
-use crate::words::sources::{root, sources};
+use crate::words::sources::sources;
 
 /// A phrase, and what to write instead.
 const PHRASES: [(&str, &str); 34] = [
@@ -48,9 +49,6 @@ const PHRASES: [(&str, &str); 34] = [
     ("pencil", "matrix weights"),
 ];
 
-/// Words before a phrase that make it plain English.
-const PLAIN: [(&str, &str); 2] = [("is none", "there"), ("are none", "there")];
-
 /// Parts of names that no source uses, and the glossary's terms for them.
 const NAMES: [(&str, &str); 10] = [
     ("star", "triple"),
@@ -82,10 +80,8 @@ fn phrases(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     for (phrase, instead) in PHRASES {
         let wanted: Vec<&str> = phrase.split(' ').collect();
-        let plain = |at: usize| {
-            let before = at.checked_sub(1).map_or("", |i| words[i]);
-            PLAIN.contains(&(phrase, before))
-        };
+        // "There is none" is plain English.
+        let plain = |at: usize| at.checked_sub(1).is_some_and(|before| words[before] == "there");
         let at = (0..words.len()).find(|&i| words[i..].starts_with(&wanted) && !plain(i));
         if at.is_some() {
             found.push(format!("\"{phrase}\": write {instead}"));
@@ -94,7 +90,7 @@ fn phrases(text: &str) -> Vec<String> {
     found
 }
 
-/// A text without what stands between backticks.
+/// A text without the parts in backticks.
 fn without_names(text: &str) -> String {
     text.split('`').step_by(2).collect::<Vec<_>>().join(" x ")
 }
@@ -103,11 +99,9 @@ fn without_names(text: &str) -> String {
 fn retired(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     names(text.parse().unwrap(), &mut |name| {
-        let parts: Vec<&str> = name.split('_').collect();
+        let parts = parts(name);
         for (retired, instead) in NAMES {
-            let is = |part: &&str| {
-                part.to_lowercase().trim_end_matches('s') == retired.trim_end_matches('s')
-            };
+            let is = |part: &String| part.trim_end_matches('s') == retired.trim_end_matches('s');
             if parts.len() < 5 && parts.iter().any(is) {
                 found.push(format!("`{name}`: write {instead}"));
             }
@@ -116,6 +110,22 @@ fn retired(text: &str) -> Vec<String> {
     found.sort();
     found.dedup();
     found
+}
+
+/// The parts of a name in snake, camel or capital letters, in lower case.
+fn parts(name: &str) -> Vec<String> {
+    let mut parts = vec![String::new()];
+    let mut low = false;
+    for c in name.chars() {
+        if c == '_' || c.is_uppercase() && low {
+            parts.push(String::new());
+        }
+        low = c.is_lowercase() || c.is_numeric();
+        if c != '_' {
+            parts.last_mut().unwrap().extend(c.to_lowercase());
+        }
+    }
+    parts
 }
 
 fn names(tokens: proc_macro2::TokenStream, visit: &mut impl FnMut(&str)) {
@@ -135,6 +145,8 @@ fn comments(text: &str) -> Vec<(usize, String)> {
     for (i, line) in text.lines().enumerate() {
         let Some(comment) = line.trim_start().strip_prefix("//") else {
             open = false;
+            // At the end of a line of code.
+            found.extend(line.split_once(" // ").map(|(_, text)| (i + 1, text.to_owned())));
             continue;
         };
         let comment = comment.trim_start_matches(['/', '!']);
@@ -208,13 +220,13 @@ fn sentences(text: &str) -> Vec<usize> {
 /// The pages by their path from the root.
 fn pages() -> Vec<(String, String)> {
     let mut names = vec!["README.md".to_owned(), "CONTRIBUTING.md".to_owned()];
-    let mut docs: Vec<_> = fs::read_dir(root().join("docs")).unwrap().map(|f| f.unwrap()).collect();
+    let mut docs: Vec<_> = fs::read_dir(path("docs")).unwrap().map(|f| f.unwrap()).collect();
     docs.sort_by_key(fs::DirEntry::file_name);
     let of_docs = docs.iter().map(|file| file.file_name().into_string().unwrap());
     names.extend(of_docs.filter(|name| name.ends_with(".md")).map(|name| format!("docs/{name}")));
     assert!(names.len() > 40, "{names:?}");
     let read = |name: String| {
-        let text = fs::read_to_string(root().join(&name)).unwrap();
+        let text = fs::read_to_string(path(&name)).unwrap();
         (name, text)
     };
     names.into_iter().map(read).collect()
@@ -278,8 +290,10 @@ fn planted_phrases_are_found() {
     assert_eq!(breaches_of_page("a.md", odd).len(), 3, "{:?}", breaches_of_page("a.md", odd));
     let long = format!("# Length\n\n{}.\n", "word ".repeat(30));
     assert_eq!(breaches_of_page("a.md", &long).len(), 1);
-    assert_eq!(retired("fn f(truth: Stars) { let judged = 1; }").len(), 2);
+    assert_eq!(parts("TruthOf_MOST_stars2"), ["truth", "of", "most", "stars2"]);
+    assert_eq!(retired("fn f(truth: StarsOf) { let judged = 1; }").len(), 2);
     assert_eq!(retired("// The truth\nfn the_truth_is_known_to_a_test() {}"), [""; 0]);
-    let source = "// A joint\n// gives way.\nfn f() {}\n";
-    assert_eq!(comments(source), [(1, " A joint gives way.".to_owned())]);
+    let source = "// A joint\n// gives way.\nfn f() {} // told apart\n";
+    let found = [(1, " A joint gives way.".to_owned()), (3, "told apart".to_owned())];
+    assert_eq!(comments(source), found);
 }

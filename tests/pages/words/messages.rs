@@ -1,7 +1,8 @@
 //! Every message of the project in one file, to be read as a whole.
 //!
 //! `sources => docs/validation/messages.txt`. A message is a text of three words and more in an attribute `error`,
-//! `diagnostic` or `help`, in a macro that writes or formats, or in an expression; texts of panics, assertions and tests
+//! `diagnostic` or `help`, in a macro that writes or formats, in an expression, or in the documentation of what `clap`
+//! derives, which is its help; texts of panics, assertions and tests
 //! are none, nor is what is written in another language (HTML, SVG, C, Rust, TOML). Placeholders stay as they are.
 
 use std::fmt::Write as _;
@@ -10,7 +11,7 @@ use dbd_tests::page;
 use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::{self, Visit};
 
-use crate::words::sources::sources;
+use crate::words::sources::{documentation, sources};
 
 /// Macros whose texts are for developers.
 const FOR_DEVELOPERS: [&str; 11] = [
@@ -64,7 +65,36 @@ fn is_of_tests(attributes: &[syn::Attribute]) -> bool {
     })
 }
 
+/// What `clap` derives, with its help in the documentation.
+const OF_CLAP: [&str; 4] = ["Args", "Parser", "Subcommand", "ValueEnum"];
+
+fn is_of_clap(attributes: &[syn::Attribute]) -> bool {
+    let derives = attributes.iter().filter(|attribute| attribute.path().is_ident("derive"));
+    derives.filter_map(|derive| derive.meta.require_list().ok()).any(|list| {
+        let mut names = list.tokens.to_string();
+        names.retain(|c| !c.is_whitespace());
+        names.split(',').any(|name| OF_CLAP.contains(&name))
+    })
+}
+
 impl<'s> Visit<'s> for Messages {
+    fn visit_item_struct(&mut self, item: &'s syn::ItemStruct) {
+        if is_of_clap(&item.attrs) {
+            item.fields.iter().for_each(|field| self.text(&documentation(&field.attrs)));
+        }
+        visit::visit_item_struct(self, item);
+    }
+
+    fn visit_item_enum(&mut self, item: &'s syn::ItemEnum) {
+        if is_of_clap(&item.attrs) {
+            for variant in &item.variants {
+                self.text(&documentation(&variant.attrs));
+                variant.fields.iter().for_each(|field| self.text(&documentation(&field.attrs)));
+            }
+        }
+        visit::visit_item_enum(self, item);
+    }
+
     fn visit_item_mod(&mut self, item: &'s syn::ItemMod) {
         if !is_of_tests(&item.attrs) {
             visit::visit_item_mod(self, item);
@@ -155,6 +185,12 @@ fn messages_are_told_from_other_texts() {
         #[derive(Error)]
         enum Wrong { #[error("the step {step} is not positive")] #[diagnostic(help("give a step above zero"))] Step }
         /// A comment is no message.
+        #[derive(Debug, Args)]
+        struct Arguments {
+            /// Write a picture to this file
+            svg: bool,
+        }
+        /// Nor is this comment here.
         fn f(x: Option<u8>) -> String {
             let _ = x.expect("this is for developers alone");
             assert!(true, "so is this one here");
@@ -169,6 +205,7 @@ fn messages_are_told_from_other_texts() {
     let expected = [
         "the step {step} is not positive",
         "give a step above zero",
+        "Write a picture to this file",
         "joint `{}` has no axis at all",
     ];
     assert_eq!(found, expected);

@@ -2,4 +2,4 @@
 
 mod linter;
 mod messages;
-mod sources;
+pub mod sources;

@@ -1,7 +1,9 @@
 //! The sources that users run, as syntax.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+use dbd_tests::results::path;
 
 /// The folders whose programs and libraries speak to users.
 const FOLDERS: [&str; 8] = [
@@ -15,19 +17,33 @@ const FOLDERS: [&str; 8] = [
     "host-sim/build.rs",
 ];
 
-/// The root of the project.
-pub fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
 /// The sources by their path from the root, in order, without tests.
 pub fn sources() -> Vec<(String, String)> {
     let mut files = Vec::new();
     for folder in FOLDERS {
-        walk(&root().join(folder), folder, &mut files);
+        files.extend(sources_below(folder));
     }
     assert!(files.len() > 500, "{} sources", files.len());
     files
+}
+
+/// The sources of one folder, or of one file, likewise.
+pub fn sources_below(name: &str) -> Vec<(String, String)> {
+    let mut files = Vec::new();
+    walk(&path(name), name, &mut files);
+    files
+}
+
+/// The documentation among attributes, its lines joined.
+pub fn documentation(attributes: &[syn::Attribute]) -> String {
+    let lines = attributes.iter().filter_map(|attribute| {
+        let syn::Meta::NameValue(pair) = &attribute.meta else { return None };
+        let syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(text), .. }) = &pair.value else {
+            return None;
+        };
+        pair.path.is_ident("doc").then(|| text.value())
+    });
+    lines.collect()
 }
 
 fn walk(path: &Path, name: &str, files: &mut Vec<(String, String)>) {

@@ -133,8 +133,8 @@ pub fn execute_with(
 ) -> Result<Vec<String>> {
     let image = build(toolchain, name)?;
     let bin = image_of(name)?;
-    let reported = (bin == SHARED).then(|| name.to_owned());
-    let arguments: Vec<String> = reported.into_iter().chain(arguments.iter().cloned()).collect();
+    let first = (bin == SHARED).then(|| name.to_owned());
+    let arguments: Vec<String> = first.into_iter().chain(arguments.iter().cloned()).collect();
     let mut command = toolchain.cargo("run", LIBRARIES);
     command.args(selection(bin)).args(features(bin)).arg("--quiet");
     command.arg("--");

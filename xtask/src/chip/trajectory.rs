@@ -20,10 +20,10 @@ const GOLDEN: &str = "tests/dynamics/trajectories/four-bar.golden";
 pub fn compare(toolchain: &Toolchain) -> Result<()> {
     let golden = fs::read_to_string(root().join(GOLDEN));
     let golden = golden.with_context(|| format!("cannot read {GOLDEN}"))?;
-    monitor(&firmware::execute(toolchain, "trajectory", false, &[])?, &golden)
+    check(&firmware::execute(toolchain, "trajectory", false, &[])?, &golden)
 }
 
-fn monitor(lines: &[String], golden: &str) -> Result<()> {
+fn check(lines: &[String], golden: &str) -> Result<()> {
     let count = golden.lines().count();
     let pairs = golden.lines().zip(lines).enumerate();
     if let Some((row, (wanted, found))) = pairs.into_iter().find(|(_, (a, b))| a != b) {
@@ -42,8 +42,8 @@ mod tests {
     #[test]
     fn another_line_and_a_missing_one_are_found() {
         let lines = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();
-        assert!(monitor(&lines("a\nb\n"), "a\nb\n").is_ok());
-        let said = |text: &str| monitor(&lines(text), "a\nb\n").unwrap_err().to_string();
+        assert!(check(&lines("a\nb\n"), "a\nb\n").is_ok());
+        let said = |text: &str| check(&lines(text), "a\nb\n").unwrap_err().to_string();
         assert!(
             said("a\nc\n")
                 .starts_with("line 2 differs from tests/dynamics/trajectories/four-bar.golden")

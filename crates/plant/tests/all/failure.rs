@@ -31,7 +31,7 @@ fn failed(duration: f64) -> (FailedRun, Vec<(u64, u64)>) {
     let mut plant = plant(&scene, &method, run.step).unwrap();
     let mut monitor = Monitor::new(&scene, plant.as_ref());
     let run_failure: RunFailure = loop {
-        match monitor.monitor(&plant.state()) {
+        match monitor.check(&plant.state()) {
             Ok(_) => assert!(plant.advance(1).is_running()),
             Err(run_failure) => break run_failure,
         }

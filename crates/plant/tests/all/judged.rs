@@ -24,13 +24,13 @@ fn judged(
     let method = Method::new(SchemeName::Leapfrog, None, precision).unwrap();
     let mut plant = plant(scene, &method, step).unwrap();
     let mut monitor = Monitor::new(scene, plant.as_ref());
-    monitor.monitor(&plant.state())?;
+    monitor.check(&plant.state())?;
     let stride = (steps / LOOKS).max(1);
     while plant.steps() < steps {
         if let dbd_kernel::Status::Failed(failure) = plant.advance(stride) {
             return Err(RunFailure::Step(failure.cause));
         }
-        monitor.monitor(&plant.state())?;
+        monitor.check(&plant.state())?;
     }
     Ok(())
 }
@@ -337,7 +337,7 @@ fn a_joint_opens_beyond_its_clearance() {
         let mut largest = 0.0_f64;
         for _ in 0..1000 {
             assert!(plant.advance(1).is_running());
-            let verdict = monitor.monitor(&plant.state());
+            let verdict = monitor.check(&plant.state());
             largest = largest
                 .max(verdict.unwrap_or_else(|run_failure| panic!("{run_failure:?}")).extension);
         }

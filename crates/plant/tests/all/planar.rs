@@ -120,7 +120,7 @@ fn its_model_and_its_states_go_together() {
     let mut monitor = Monitor::new(&flat, own.as_ref());
     assert!(own.advance(3000).is_running());
     let verdict =
-        monitor.monitor(&own.state()).unwrap_or_else(|run_failure| panic!("{run_failure:?}"));
+        monitor.check(&own.state()).unwrap_or_else(|run_failure| panic!("{run_failure:?}"));
     assert_eq!(verdict.energy, own.energy());
     assert!(verdict.extension > 0.0 && verdict.extension < 1e-3, "{}", verdict.extension);
 }

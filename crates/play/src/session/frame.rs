@@ -52,7 +52,7 @@ impl Session {
         let layout = self.layout();
         let state = self.instance.plant().state();
         // Only its extensions are needed, not its verdict.
-        let energy = match self.monitor.monitor(&state) {
+        let energy = match self.monitor.check(&state) {
             Ok(verdict) => verdict.energy,
             Err(_) => self.instance.plant().energy(),
         };

@@ -122,7 +122,7 @@ impl Session {
     /// Checks the state as `run` does.
     fn look(&mut self) {
         let state = self.instance.plant().state();
-        self.run_failure = match self.monitor.monitor(&state) {
+        self.run_failure = match self.monitor.check(&state) {
             Err(RunFailure::Growth { .. } | RunFailure::Torn { .. }) if self.disturbed => None,
             Err(run_failure) => Some(run_failure),
             Ok(_) => None,

@@ -85,8 +85,7 @@ impl Spring<'_> {
     /// The warning about a spring that acts in both directions although its name suggests one.
     fn side(&self) -> Option<(Severity, String)> {
         let (word, pulls) = one_sided(self.name).filter(|_| self.group.law == Law::Tsda)?;
-        let [does, now, length] =
-            if pulls { ["pushes", "pushes", "short"] } else { ["pulls", "pulls", "long"] };
+        let [does, length] = if pulls { ["pushes", "short"] } else { ["pulls", "long"] };
         let amount = if pulls { -self.extension } else { self.extension };
         if amount <= UNSTRAINED * self.facts.free_length {
             let text = format!(
@@ -96,7 +95,7 @@ impl Spring<'_> {
             return Some((Severity::Note, text));
         }
         let text = format!(
-            "{now} at t = 0, unlike a {word}: it is {} m long and its free length is {} m; change \
+            "{does} at t = 0, unlike a {word}: it is {} m long and its free length is {} m; change \
              the free length, or use the law `distance-stop` of an interaction, which acts in one \
              direction",
             short(self.facts.longest),

@@ -239,7 +239,7 @@ impl<'s> Search<'s> {
         let mut states = vec![State::of(&plant.state())];
         while states.len() < self.reference_solution.len() {
             let state = plant.advance(steps).is_running().then(|| plant.state())?;
-            monitor.monitor(&state).ok()?;
+            monitor.check(&state).ok()?;
             states.push(State::of(&state));
         }
         Some(states)

@@ -1,8 +1,8 @@
 //! The reference solution of a scene with interactions: the kernel at fine steps.
 //!
-//! `(scene, opinion, times) => states`. The references do not implement laws of interactions, which may be user-defined
+//! `(scene, integrator, times) => states`. The references do not implement laws of interactions, which may be user-defined
 //! and have internal states. So these scenes are compared with leapfrog in double precision with short steps; twice the
-//! step is the second opinion, and the distance between the two is the uncertainty: of order 2 for smooth forces, of
+//! step is the second integrator, and the distance between the two is the uncertainty: of order 2 for smooth forces, of
 //! order 1 if a stop is hit within a step.
 
 use dbd_plant::{Frequencies, Method, plant};
@@ -10,7 +10,7 @@ use dbd_scene::Scene;
 
 use crate::reference::mechanism::Mechanism;
 use crate::reference::perturbed::{perturbation, perturbed as nearby};
-use crate::reference::reference_solution::{NoReferenceSolution, Opinion, integrate};
+use crate::reference::reference_solution::{Integrator, NoReferenceSolution, integrate};
 use crate::reference::state::State;
 
 /// Steps of the reference solution per default step of leapfrog.
@@ -22,21 +22,21 @@ const FINER: f64 = 32.0;
 /// # Errors
 /// If the integrator or a step of the kernel fails.
 pub fn states(
-    opinion: Opinion,
+    integrator: Integrator,
     scene: &Scene,
     perturbed: bool,
     times: &[f64],
 ) -> Result<Vec<State>, NoReferenceSolution> {
     if !dbd_scene::interactions(scene).is_empty() {
-        return of_kernel(opinion, scene, perturbed, times);
+        return of_kernel(integrator, scene, perturbed, times);
     }
     let (mechanism, start) = Mechanism::of(scene);
     let start = if perturbed { nearby(&start) } else { start };
-    integrate(opinion, &mechanism, &start, times)
+    integrate(integrator, &mechanism, &start, times)
 }
 
 fn of_kernel(
-    opinion: Opinion,
+    integrator: Integrator,
     scene: &Scene,
     perturbed: bool,
     times: &[f64],
@@ -47,9 +47,9 @@ fn of_kernel(
         scene.planar = None;
     }
     let method = Method::default();
-    let finer = match opinion {
-        Opinion::Dop853 => FINER,
-        Opinion::Verner98 => FINER / 2.0,
+    let finer = match integrator {
+        Integrator::Dop853 => FINER,
+        Integrator::Verner98 => FINER / 2.0,
     };
     let limit = Frequencies::of(&scene).default_limit(&method, scene.duration) / finer;
     let interval = times.get(1).copied().unwrap_or(limit);
@@ -95,8 +95,8 @@ mod tests {
              normal = [0, 0, 1]\nstiffness = 1e4\ndissipation = 0\n",
         );
         let times: Vec<f64> = (0..=50).map(|row| 0.005 * f64::from(row)).collect();
-        let reference_solution = states(Opinion::Dop853, &scene, false, &times).unwrap();
-        let second = states(Opinion::Verner98, &scene, false, &times).unwrap();
+        let reference_solution = states(Integrator::Dop853, &scene, false, &times).unwrap();
+        let second = states(Integrator::Verner98, &scene, false, &times).unwrap();
         let (g, omega) = (9.81, 100.0_f64);
         let fall = (2.0_f64 * 0.1 / g).sqrt();
         let (rest, speed) = (g / omega.powi(2), g * fall);
@@ -126,7 +126,7 @@ mod tests {
     fn without_interactions_it_is_the_reference() {
         let times = [0.0, 0.05, 0.1];
         let scene = ball("");
-        let states = states(Opinion::Dop853, &scene, false, &times).unwrap();
+        let states = states(Integrator::Dop853, &scene, false, &times).unwrap();
         assert!((states[2].bodies[0].position.z - (0.1 - 0.5 * 9.81 * 0.01)).abs() < 1e-12);
     }
 }

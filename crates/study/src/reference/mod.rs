@@ -13,7 +13,7 @@
 //! - [`ordering`], `blocks`: a sparse matrix of a block per pair of bodies, and its elimination.
 //! - [`implicit`], [`generalized_alpha`]: linearly implicit Euler and generalised-α, one sparse solve per step.
 //! - [`spectrum`]: all eigenfrequencies of a pose.
-//! - [`equations`], [`reference_solution`]: the mechanism as a first-order system; DOP853 with a second opinion.
+//! - [`equations`], [`reference_solution`]: the mechanism as a first-order system; DOP853 with a second integrator.
 //! - [`perturbed`](mod@perturbed), [`fine`]: a state nearby; the reference solution of any scene.
 //! - [`metric`], [`trajectory`]: distance of a run from the reference solution.
 //! - [`window`]: how long a trajectory stays close to a perturbed one.

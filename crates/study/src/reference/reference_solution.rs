@@ -1,7 +1,7 @@
 //! The reference solution: two integrators of high order at tight tolerances.
 //!
 //! `(mechanism, state, times) => states`. DOP853 (Hairer, Nørsett & Wanner 1993) is the reference solution, the pair
-//! 9(8) of Verner (2010) the second opinion. Both end a step at every sample and at every jump of a load or table, so
+//! 9(8) of Verner (2010) the second integrator. Both end a step at every sample and at every jump of a load or table, so
 //! that no sample is interpolated and no step straddles a jump.
 
 use differential_equations::control::ControlFlag;
@@ -23,7 +23,7 @@ use crate::reference::state::State;
 /// Relative and absolute tolerance of a step of DOP853, SI units.
 pub const TOLERANCE: f64 = 1e-12;
 
-/// Tolerances of the second opinion, whose measure of an error is the largest component, not the mean:
+/// Tolerances of the second integrator, whose measure of an error is the largest component, not the mean:
 /// at 1e-12 the rounding of light bodies' accelerations would drive its step.
 pub const SECOND_TOLERANCE: f64 = 1e-11;
 
@@ -34,7 +34,7 @@ const MAX_STEPS: [f64; 2] = [2e5, 100.0];
 
 /// Which integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Opinion {
+pub enum Integrator {
     /// Dormand & Prince's 8(5,3).
     Dop853,
     /// Verner's 9(8).
@@ -60,7 +60,7 @@ pub struct NoReferenceSolution {
 /// # Errors
 /// If the integrator fails.
 pub fn integrate(
-    opinion: Opinion,
+    integrator: Integrator,
     mechanism: &Mechanism,
     start: &State,
     times: &[f64],
@@ -75,9 +75,9 @@ pub fn integrate(
     let mut jumps = mechanism.jumps([0.0, end]).into_iter().peekable();
     for &time in times {
         while let Some(jump) = jumps.next_if(|jump| *jump < time) {
-            piece.advance(opinion, mechanism, jump)?;
+            piece.advance(integrator, mechanism, jump)?;
         }
-        piece.advance(opinion, mechanism, time)?;
+        piece.advance(integrator, mechanism, time)?;
         states.push(unpack(&piece.y, bodies));
     }
     Ok(states)
@@ -96,7 +96,7 @@ struct Piece {
 impl Piece {
     fn advance(
         &mut self,
-        opinion: Opinion,
+        integrator: Integrator,
         mechanism: &Mechanism,
         end: f64,
     ) -> Result<(), NoReferenceSolution> {
@@ -104,7 +104,7 @@ impl Piece {
             return Ok(());
         }
         let equations = Equations::new(mechanism, [self.time, end]);
-        let (steps, y) = self.solve(opinion, &equations, end)?;
+        let (steps, y) = self.solve(integrator, &equations, end)?;
         self.step = steps.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
         self.left = self.left.saturating_sub(steps.len());
         self.y = y;
@@ -115,18 +115,18 @@ impl Piece {
     /// The times of the steps and the values at the last.
     fn solve(
         &self,
-        opinion: Opinion,
+        integrator: Integrator,
         equations: &Equations<'_>,
         end: f64,
     ) -> Result<(Vec<f64>, Vec<f64>), NoReferenceSolution> {
         let problem = IVP::ode(equations, self.time, end, self.y.clone()).solout(Latest);
         let first = self.step.min(end - self.time);
-        let solution = match opinion {
-            Opinion::Dop853 => {
+        let solution = match integrator {
+            Integrator::Dop853 => {
                 let method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE);
                 problem.method(method.h0(first).max_steps(self.left)).solve()
             }
-            Opinion::Verner98 => {
+            Integrator::Verner98 => {
                 let method = ExplicitRungeKutta::rkv988e();
                 let method = method.rtol(SECOND_TOLERANCE).atol(SECOND_TOLERANCE);
                 problem.method(method.h0(first).max_steps(self.left)).solve()

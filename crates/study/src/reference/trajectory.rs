@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use crate::reference::fine::states;
 use crate::reference::mechanism::Mechanism;
 use crate::reference::metric::distance;
-use crate::reference::reference_solution::{NoReferenceSolution, Opinion, integrate};
+use crate::reference::reference_solution::{Integrator, NoReferenceSolution, integrate};
 use crate::reference::state::State;
 
 /// The positions of all bodies \[m\] at one time.
@@ -24,7 +24,7 @@ pub struct Trajectory {
     pub times: Vec<f64>,
     /// The states at the times.
     pub states: Vec<State>,
-    /// \[m\] distance of the second opinion at each time.
+    /// \[m\] distance of the second solution at each time.
     pub uncertainty: Vec<f64>,
 }
 
@@ -45,8 +45,8 @@ impl Trajectory {
         samples: u32,
     ) -> Result<Self, NoReferenceSolution> {
         let times = sample_times(window, samples);
-        let [states, second] = [Opinion::Dop853, Opinion::Verner98]
-            .map(|opinion| states(opinion, scene, false, &times));
+        let [states, second] = [Integrator::Dop853, Integrator::Verner98]
+            .map(|integrator| states(integrator, scene, false, &times));
         Ok(Self::of(times, states?, &second?))
     }
 
@@ -59,8 +59,8 @@ impl Trajectory {
         start: &State,
         times: Vec<f64>,
     ) -> Result<Self, NoReferenceSolution> {
-        let states = integrate(Opinion::Dop853, mechanism, start, &times)?;
-        let second = integrate(Opinion::Verner98, mechanism, start, &times)?;
+        let states = integrate(Integrator::Dop853, mechanism, start, &times)?;
+        let second = integrate(Integrator::Verner98, mechanism, start, &times)?;
         Ok(Self::of(times, states, &second))
     }
 

@@ -10,7 +10,7 @@ use dbd_scene::Scene;
 
 use crate::reference::fine::states;
 use crate::reference::metric::distance;
-use crate::reference::reference_solution::{NoReferenceSolution, Opinion};
+use crate::reference::reference_solution::{Integrator, NoReferenceSolution};
 use crate::reference::state::State;
 use crate::reference::trajectory::sample_times;
 
@@ -41,7 +41,7 @@ pub fn before_chaos(
 ) -> Result<Window, NoReferenceSolution> {
     let mut times = sample_times(longest, samples);
     let both = |times: &[f64]| -> Result<_, NoReferenceSolution> {
-        let of = |perturbed| states(Opinion::Dop853, scene, perturbed, times);
+        let of = |perturbed| states(Integrator::Dop853, scene, perturbed, times);
         Ok((of(false)?, of(true)?))
     };
     let (reference_solution, other) = loop {

@@ -45,7 +45,7 @@ pub fn of_scene(
             Ok(()) => plant.state(),
             Err(_) => state,
         };
-        let judged = monitor.monitor(&state);
+        let judged = monitor.check(&state);
         let energy = match (row.energies, judged) {
             (Some([kinetic, potential, _]), _) => {
                 Energy { kinetic, gravity: potential, ..Energy::default() }

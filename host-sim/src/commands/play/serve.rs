@@ -14,7 +14,7 @@ use tiny_http::{Header, Method, Request, Response, Server, StatusCode};
 use crate::commands::play::{PlayError, made};
 use crate::terminal::SceneFile;
 
-/// Serves a page until a signal ends the program; `reported` is called with its URL.
+/// Serves a page until a signal ends the program; `on_ready` is called with its URL.
 ///
 /// # Errors
 /// If the port is in use or the module is invalid.
@@ -23,7 +23,7 @@ pub fn serve(
     module: &[u8],
     file: &Path,
     port: Option<u16>,
-    reported: &mut dyn FnMut(&str),
+    on_ready: &mut dyn FnMut(&str),
 ) -> Result<(), PlayError> {
     let port = port.unwrap_or(0);
     let refused = |reason: String| PlayError::Serve { port, reason };
@@ -33,7 +33,7 @@ pub fn serve(
     let server = Server::http(("127.0.0.1", port)).map_err(|error| refused(error.to_string()))?;
     let bound = server.server_addr().to_ip().map_or(port, |address| address.port());
     let site = Site { html, token, port: bound };
-    reported(&format!("http://127.0.0.1:{bound}/{}/", site.token));
+    on_ready(&format!("http://127.0.0.1:{bound}/{}/", site.token));
     for request in server.incoming_requests() {
         let answer = site.answer(&request, file);
         // A closed browser needs no answer.
