@@ -179,7 +179,7 @@ fn a_spin_limits_the_step() {
     let rows = [("0.1, as advised", ours), ("0.88", long)]
         .map(|(turn, lost)| vec![turn.to_owned(), format!("{lost:.1e}")]);
     let head = ["rad per step", "energy lost in 10 s, in parts of it"];
-    block("docs/schemes.md", "spin", &table(&head, &rows));
+    block("docs/schemes-measured.md", "spin", &table(&head, &rows));
 
     let warned = |text: &str| text.contains("body `top` turns by 0.88 rad in a step of 16ms");
     let long = ["--step", "16ms"];

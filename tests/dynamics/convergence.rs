@@ -174,7 +174,7 @@ fn in_the_plane_with_dampers() {
         rows.push(cells.to_vec());
     }
     let head = ["scheme", "dampers", "order observed", "error at 50 µs [m]"];
-    block("docs/schemes.md", "damped orders", &table(&head, &rows));
+    block("docs/schemes-measured.md", "damped orders", &table(&head, &rows));
 }
 
 #[test]

@@ -196,7 +196,7 @@ fn it_is_of_second_order_and_near_the_law_of_the_dampers() {
         rows.push(head.into_iter().chain(cells).collect());
     }
     let head = ["", "step", "error, sweeps [m]", "error, joint-wise [m]", "limits apart [m]"];
-    block("docs/schemes.md", "joint-wise", &table(&head, &rows));
+    block("docs/schemes-measured.md", "joint-wise", &table(&head, &rows));
 }
 
 /// The largest rise of the energy after what drives a scene has ended, over the kinetic energy.

@@ -214,7 +214,7 @@ fn from_some_step_on_a_smaller_one_is_less_accurate() {
     }
     let head: Vec<_> = STEPS.iter().map(|product| format!("ω·h = {product}")).collect();
     let head: Vec<_> = [""].into_iter().chain(head.iter().map(String::as_str)).collect();
-    block("docs/schemes.md", "single precision", &table(&head, &rows));
+    block("docs/schemes-measured.md", "single precision", &table(&head, &rows));
 }
 
 /// Where a run under a scheme of first order warns of a step, its error has grown, too.

@@ -151,7 +151,7 @@ fn light_dampers_act_in_single_precision_too() {
         assert!((single / double - 1.0).abs() < tolerance, "{x}: {single} {double}");
     }
     let head = ["x", "decay over what it should be, f64", "f32"];
-    block("docs/schemes.md", "light dampers", &table(&head, &rows));
+    block("docs/schemes-measured.md", "light dampers", &table(&head, &rows));
 }
 
 #[test]

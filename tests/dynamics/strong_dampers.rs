@@ -108,7 +108,7 @@ fn what_is_off_by_more_than_a_percent_is_warned_of() {
         "worst at the step that the warning names",
         "worst of those by `generalized-alpha`",
     ];
-    block("docs/schemes.md", "strong dampers", &table(&head, &rows));
+    block("docs/schemes-measured.md", "strong dampers", &table(&head, &rows));
 }
 
 /// Nor at twice its step.

@@ -56,7 +56,7 @@ fn through_the_pole() {
         ["`euler-321`", "3 numbers and the sequence", "< 5e-13", &figure_of(angles)],
     ];
     let rows = rows.map(|row| row.map(str::to_owned).to_vec());
-    block("docs/schemes.md", "poles", &table(&["", "stored words", "f64", "f32"], &rows));
+    block("docs/schemes-measured.md", "poles", &table(&["", "stored words", "f64", "f32"], &rows));
 }
 
 fn figure_of(change: f64) -> String {
@@ -105,7 +105,7 @@ fn quaternions_keep_the_angular_momentum_to_rounding_and_angles_to_their_order()
         "pefrl, `quaternion`",
         "pefrl, `euler-321`",
     ];
-    block("docs/schemes.md", "rotor", &table(&head, &rows));
+    block("docs/schemes-measured.md", "rotor", &table(&head, &rows));
     // Beyond the advised 0.1 rad the truncated turns of the rotor show.
     for (turn, largest) in [(0.3, 5e-13), (0.6, 2e-12), (0.95, 1e-9)] {
         for worst in
@@ -159,7 +159,7 @@ fn backward_differences_are_noisy() {
         assert!((1e-3..2e-2).contains(&single) && double < 1e-9, "{single:e} {double:e}");
     }
     let head = ["coordinate [m]", "f32, RMS [mm/s]", "f32, at most [mm/s]", "f64, RMS [mm/s]"];
-    block("docs/schemes.md", "differences", &table(&head, &rows));
+    block("docs/schemes-measured.md", "differences", &table(&head, &rows));
 }
 
 /// The paper turns the world frame where a pitch comes close to ±90°, which a body that turns end
@@ -186,7 +186,7 @@ fn turning_the_world_frame_moves_what_it_holds() {
     assert!(often > 3.0 * once && double < 1e-12, "{often:e} {double:e}");
     let cells = [format!("{once:.0e}"), format!("{often:.0e}"), "< 1e-12".to_owned()];
     let head = ["f32, once", "f32, 1000 times", "f64, 1000 times"];
-    block("docs/schemes.md", "frames", &table(&head, &[cells.to_vec()]));
+    block("docs/schemes-measured.md", "frames", &table(&head, &[cells.to_vec()]));
 }
 
 /// Three bodies, tumbling, joined and hung, against their truth with quaternions.

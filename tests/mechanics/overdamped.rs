@@ -215,7 +215,7 @@ fn strong_dampers_let_creep_what_they_should() {
     let strengths = STRENGTHS
         .map(|x| if !(0.1..1e3).contains(&x) { format!("{x:.0e}") } else { x.to_string() });
     let head: Vec<&str> = [""].into_iter().chain(strengths.iter().map(String::as_str)).collect();
-    block("docs/schemes.md", "overdamped", &table(&head, &rows));
+    block("docs/schemes-measured.md", "overdamped", &table(&head, &rows));
 }
 
 /// A bushing twenty times more damped than critically, at ever longer steps: h·c/m from 1 to 64.
@@ -283,7 +283,7 @@ fn suspensions_are_more_exact_at_equal_steps() {
         }
     }
     let head = ["", "step", "passes without the kick [m]", "`leapfrog` [m]", "ratio"];
-    block("docs/schemes.md", "suspensions", &table(&head, &rows));
+    block("docs/schemes-measured.md", "suspensions", &table(&head, &rows));
 }
 
 /// \[m\] the largest distance of a body from the truth.

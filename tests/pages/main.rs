@@ -194,7 +194,11 @@ fn the_cost_of_sweeps_is_that_of_the_costs() {
         ("one damper in one sweep", sweeps / (2.0 * dampers)),
     ];
     let rows = rows.map(|(what, count)| vec![what.to_owned(), figure(count, 3)]);
-    block("docs/schemes.md", "sweeps", &table(&["double-wishbone, f32", "instructions"], &rows));
+    block(
+        "docs/schemes-measured.md",
+        "sweeps",
+        &table(&["double-wishbone, f32", "instructions"], &rows),
+    );
 }
 
 #[test]

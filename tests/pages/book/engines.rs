@@ -63,42 +63,6 @@ fn other(row: &Row) -> Vec<String> {
 /// A remark on what it is, not on how well it does.
 const CLEVER: &str = "the method without cleverness";
 
-/// Scenes without and with dampers, and how they step on the chip.
-const ON_THE_CHIP: [(&str, &str, &str, &str); 3] = [
-    ("four-bar", "–", "leapfrog", "f32"),
-    ("cart-pendulum", "every joint", "leapfrog-joint-wise", "f32"),
-    ("double-wishbone", "every joint", "leapfrog-joint-wise", "f32"),
-];
-
-#[test]
-fn the_readme_says_what_a_simulated_second_costs_on_the_chip() {
-    let row = |&(scene, damped, scheme, precision): &(&str, &str, &str, &str)| {
-        let counted = cost(scene, scheme, precision);
-        let [step, each] = ["step_s", "instructions_mean"].map(|column| counted.number(column));
-        let rate = counted.number("estimated_rate_168mhz_hz");
-        vec![
-            scene.to_owned(),
-            damped.into(),
-            format!("{scheme}, {precision}"),
-            figure(1e6 * step, 3),
-            figure(each, 4),
-            figure(1e-6 * each / step, 3),
-            format!("{} %", figure(100.0 / (step * rate), 2)),
-        ]
-    };
-    let head = [
-        "scene",
-        "damped",
-        "method",
-        "step [µs]",
-        "instructions per step",
-        "million per simulated second",
-        "of a 168 MHz core, estimated",
-    ];
-    let lines: Vec<Vec<String>> = ON_THE_CHIP.iter().map(row).collect();
-    block("README.md", "chip", &table(&head, &lines));
-}
-
 #[test]
 fn the_readme_says_what_was_measured() {
     let [single, double, fourth] = at_equal_cost();

@@ -15,6 +15,7 @@
 //! - `drawing`: one view, far parts first.
 //! - `legend`: meaning of the symbols.
 //! - `sheet`: the views on one sheet.
+//! - `motion`: the large view at several poses, one after the other.
 
 mod bodies;
 mod drawing;
@@ -22,6 +23,7 @@ mod faces;
 mod ink;
 mod legend;
 pub mod mechanism;
+mod motion;
 mod names;
 mod paths;
 mod sheet;
@@ -30,4 +32,5 @@ mod symbols;
 pub mod view;
 
 pub use mechanism::Mechanism;
+pub use motion::{Pose, motion};
 pub use sheet::{Paper, svg};

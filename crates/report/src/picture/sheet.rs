@@ -26,11 +26,11 @@ pub enum Paper {
 }
 
 /// \[pixels\] width of the sheet: narrow, so that letters can be read where it is scaled down.
-const WIDTH: f64 = 640.0;
-const MARGIN: f64 = 12.0;
+pub(crate) const WIDTH: f64 = 640.0;
+pub(crate) const MARGIN: f64 = 12.0;
 /// \[pixels\] margin around the drawing to scale, for symbols and names.
 const ROUND_MAIN: (f64, f64) = (70.0, 52.0);
-const ROUND_SMALL: (f64, f64) = (30.0, 30.0);
+pub(crate) const ROUND_SMALL: (f64, f64) = (30.0, 30.0);
 /// \[pixels\] least and greatest height of the drawn part of a view.
 const HEIGHT_MAIN: (f64, f64) = (90.0, 400.0);
 const HEIGHT_SMALL: (f64, f64) = (20.0, 190.0);
@@ -109,7 +109,7 @@ impl Sheet<'_> {
         let height = (up * scale).clamp(HEIGHT_MAIN.0, HEIGHT_MAIN.1) + 2.0 * ROUND_MAIN.1;
         let centre = (0.5 * WIDTH, self.y + 0.5 * height);
         let mut frame = Frame { view: views.main.clone(), middle, centre, scale, symbols: 1.0 };
-        frame.symbols = self.symbols(&frame, 1.0);
+        frame.symbols = symbols(self.mechanism, &frame, 1.0);
         let drawing = Drawing { mechanism: self.mechanism, frame: &frame, colours: &self.colours };
         let left_out = if self.crowded {
             drawing.lines(&mut self.text);
@@ -124,17 +124,6 @@ impl Sheet<'_> {
         self.strip(&frame, (MARGIN, WIDTH - 2.0 * MARGIN), views.main.seen_along().is_some());
         self.y += STRIP;
         left_out
-    }
-
-    /// How large symbols are, so that those of joints do not hide bodies.
-    fn symbols(&self, frame: &Frame, most: f64) -> f64 {
-        /// \[pixels\] of a body whose symbols have their full size.
-        const ROOMY: f64 = 60.0;
-        let size = |row: usize| self.mechanism.size(row).map(|size| size * frame.scale);
-        let mut sizes: Vec<f64> = (0..self.mechanism.bodies.len()).filter_map(size).collect();
-        sizes.sort_by(f64::total_cmp);
-        let usual = sizes.get(sizes.len() / 3).copied().unwrap_or(ROOMY);
-        (usual / ROOMY).clamp(0.45 * most, most)
     }
 
     /// The small views side by side, at one scale.
@@ -155,7 +144,7 @@ impl Sheet<'_> {
             words(&mut self.text, "", (left, self.y + 16.0), "start", &title);
             let centre = (left + 0.5 * cell, self.y + LINE + 0.5 * height);
             let mut frame = Frame { view: view.clone(), middle, centre, scale, symbols: 0.72 };
-            frame.symbols = self.symbols(&frame, 0.72);
+            frame.symbols = symbols(self.mechanism, &frame, 0.72);
             let drawing =
                 Drawing { mechanism: self.mechanism, frame: &frame, colours: &self.colours };
             if self.crowded {
@@ -282,14 +271,25 @@ impl Sheet<'_> {
     }
 }
 
+/// How large symbols are, so that those of joints do not hide bodies.
+pub(crate) fn symbols(mechanism: &Mechanism, frame: &Frame, most: f64) -> f64 {
+    /// \[pixels\] of a body whose symbols have their full size.
+    const ROOMY: f64 = 60.0;
+    let size = |row: usize| mechanism.size(row).map(|size| size * frame.scale);
+    let mut sizes: Vec<f64> = (0..mechanism.bodies.len()).filter_map(size).collect();
+    sizes.sort_by(f64::total_cmp);
+    let usual = sizes.get(sizes.len() / 3).copied().unwrap_or(ROOMY);
+    (usual / ROOMY).clamp(0.45 * most, most)
+}
+
 /// \[pixels/m\] at which a width and a height \[m\] fit into a room \[pixels\]; infinite of a point.
-fn fitting(across: f64, up: f64, room: (f64, f64)) -> f64 {
+pub(crate) fn fitting(across: f64, up: f64, room: (f64, f64)) -> f64 {
     let fits = |size: f64, room: f64| if size > 0.0 { room / size } else { f64::INFINITY };
     fits(across, room.0).min(fits(up, room.1))
 }
 
 /// The scale, or a default.
-fn scale(fitting: f64) -> f64 {
+pub(crate) fn scale(fitting: f64) -> f64 {
     if fitting.is_finite() && fitting > 0.0 { fitting } else { 100.0 }
 }
 
