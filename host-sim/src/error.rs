@@ -18,11 +18,13 @@ use crate::commands::fmu::FmuError;
 use crate::commands::hil::HilError;
 use crate::commands::import::ImportError;
 use crate::commands::linearise::LineariseError;
+use crate::commands::manual::ManualError;
 use crate::commands::mode_table::ModeTableError;
 use crate::commands::new::NewError;
 use crate::commands::picture::PictureError;
 use crate::commands::play::PlayError;
 use crate::commands::relax::RelaxError;
+use crate::commands::report::ReportError;
 use crate::commands::reproduce::ReproduceError;
 use crate::commands::run::RunError;
 use crate::commands::sweep::error::SweepError;
@@ -115,6 +117,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Advise(#[from] AdviseError),
+    /// A recorded run has no page.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Report(#[from] ReportError),
     /// The paper's results could not be reproduced or not be written.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -127,6 +133,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Compare(#[from] CompareRefusal),
+    /// No manual pages were written.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Manual(#[from] ManualError),
     /// The results cannot be written to standard output.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -172,7 +182,7 @@ impl Error {
             Self::Relax(RelaxError::Restless(_)) => Exit::Failed,
             Self::Relax(_) => Exit::Refused,
             Self::LongForm(_) | Self::Watch(_) => Exit::Refused,
-            Self::Output(_) => Exit::Failed,
+            Self::Output(_) | Self::Manual(_) => Exit::Failed,
             // 1 means that the runs differ.
             Self::Compare(_) => Exit::Refused,
             Self::Run(error) => match error {
@@ -192,7 +202,9 @@ impl Error {
                 | SweepError::Report(_)
                 | SweepError::Write(_) => Exit::Failed,
             },
-            Self::Reproduce(ReproduceError::Write { .. }) => Exit::Failed,
+            Self::Report(ReportError::Write { .. })
+            | Self::Reproduce(ReproduceError::Write { .. }) => Exit::Failed,
+            Self::Report(_) => Exit::Refused,
             Self::Reproduce(_) => Exit::Refused,
             Self::Ideal(IdealError::NoJoint { .. }) | Self::Asked(_) => Exit::Refused,
             Self::Ideal(IdealError::NotReached { .. }) => Exit::Failed,

@@ -11,7 +11,7 @@
 //! - [`comparison`]: comparison of two of them.
 //! - [`help`]: the examples in the help of each command.
 //! - [`arguments`]: arguments shared by several commands.
-//! - [`commands`]: `list`, `check`, `run`, `compare`, `sweep`, `trade`, `reproduce`, `export`, `fmu`, `hil`, `import`, `new`, `completions`.
+//! - [`commands`]: `list`, `check`, `run`, `compare`, `report`, `sweep`, `trade`, `reproduce`, `export`, `fmu`, `hil`, `import`, `new`, `completions`, `manual`.
 //! - [`error`]: errors of commands.
 //! - [`cli`]: arguments in, exit code out.
 //! - [`program`]: the command line as a custom program with custom laws.

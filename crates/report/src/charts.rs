@@ -61,9 +61,15 @@ pub struct Finished {
 impl Charts {
     /// The charts of a scene's runs. Their values, in order: kinetic, potential and total energy \[J\];
     /// each sensor's columns; each input; each joint's largest extension \[m\] and force \[N\]; of each
-    /// body that is no spider position \[m\], rotation \[rad\], speed \[m/s\] and rate \[rad/s\].
+    /// body that is no spider position \[m\], rotation \[rad\], speed \[m/s\] and rate \[rad/s\]; each of
+    /// `others`, numbers with a name and a unit that are not the scene's.
     #[must_use]
-    pub fn of(scene: &Scene, mechanism: &Mechanism, plan: &Plan) -> Self {
+    pub fn of(
+        scene: &Scene,
+        mechanism: &Mechanism,
+        plan: &Plan,
+        others: &[(String, String)],
+    ) -> Self {
         let mut charts = Self::default();
         charts.add(Section::Energy, ["Energy", "energy", "J"], &["kinetic", "potential"]);
         let total = ["Change of the total energy", "total energy", "J"];
@@ -76,6 +82,9 @@ impl Charts {
         }
         charts.joints(scene, mechanism);
         charts.bodies(mechanism, plan.duration);
+        for (name, unit) in others {
+            charts.add(Section::Readouts, [name, "recorded", unit], &[""]);
+        }
         charts
     }
 

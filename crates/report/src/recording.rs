@@ -28,6 +28,8 @@ pub struct Sample<'s> {
     pub energy: Energy<f64>,
     /// \[m\] the largest extension of the elements of each joint, in scene order.
     pub extensions: &'s [f64],
+    /// Numbers that are not the scene's, see [`Recording::with_others`].
+    pub others: &'s [f64],
 }
 
 /// Records a run's samples.
@@ -71,11 +73,24 @@ impl Recording {
     /// # Errors
     /// Where there is no plant of the method with the plan's step.
     pub fn new(scene: &Scene, method: &Method, plan: &Plan) -> Result<Self, PlantError> {
+        Self::with_others(scene, method, plan, &[])
+    }
+
+    /// The same with further numbers in each sample, such as a controller's state: their names and units.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_others(
+        scene: &Scene,
+        method: &Method,
+        plan: &Plan,
+        others: &[(String, String)],
+    ) -> Result<Self, PlantError> {
         // Forces are those of the constants that run, rounded as they are.
         let plant = plant(scene, method, plan.step)?;
         let mechanism = Mechanism::of(scene);
         let loading = Loading::new(scene, &mechanism, plant.model().clone(), plant.step_size());
-        let charts = Charts::of(scene, &mechanism, plan);
+        let charts = Charts::of(scene, &mechanism, plan, others);
         let curves = Curves::new(charts.deviations(), plan.samples());
         Ok(Self {
             spread: Spread::of(&mechanism, plan.samples()),
@@ -126,7 +141,7 @@ impl Recording {
     /// The values of all lines at a sample, as [`Charts::of`] has them.
     fn fill_row(&mut self, sample: &Sample<'_>) {
         let Self { row, mechanism, turns, joint_forces, .. } = self;
-        let Sample { state, readings, energy, extensions, .. } = *sample;
+        let Sample { state, readings, energy, extensions, others, .. } = *sample;
         row.clear();
         row.extend([energy.kinetic, energy.potential(), energy.total()]);
         row.extend(readings);
@@ -144,6 +159,7 @@ impl Recording {
             row.extend(turn.to(body.orientation.to_f64()));
             row.extend([length(body.velocity), length(body.angular_velocity)]);
         }
+        row.extend(others);
     }
 
     fn frame(&self, time: f64, state: &State<SceneModel<F64>>, extensions: &[f64]) -> Frame {
@@ -258,6 +274,7 @@ readout = [
                 readings: &readings,
                 energy,
                 extensions: monitor.extensions(),
+                others: &[],
             });
             all.push(readings);
             let _ = plant.advance(plan.stride);

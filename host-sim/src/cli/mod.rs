@@ -19,8 +19,9 @@ mod trade;
 
 use std::ffi::OsString;
 use std::io::Write;
+use std::path::PathBuf;
 
-use clap::{ColorChoice, CommandFactory as _, Parser, Subcommand};
+use clap::{ColorChoice, CommandFactory as _, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 use dbd_import::omission;
 
@@ -44,9 +45,11 @@ use crate::commands::fmu::{FmuArguments, fmu};
 use crate::commands::import::{self, Import, ImportArguments};
 use crate::commands::linearise::LineariseArguments;
 use crate::commands::list::list;
+use crate::commands::manual;
 use crate::commands::new::{
     NewCommand, NewError, PlantArguments, SceneArguments, c, firmware, laws, scene,
 };
+use crate::commands::report::{ReportArguments, report};
 use crate::commands::schema;
 use crate::commands::sweep::{SweepArguments, sweep};
 use crate::error::Error;
@@ -117,6 +120,9 @@ enum Command {
     /// OUT/compare/NAME/{report.html,compare.json}; exit code 0 if they are equal, 1 if not
     #[command(after_help = help::COMPARE)]
     Compare(CompareArguments),
+    /// Shows a recorded run, also of your own loop or of firmware: writes a page with animation and curves
+    #[command(after_help = help::REPORT)]
+    Report(ReportArguments),
     /// Prints Rust source of a scene's const model and of its plant, for firmware
     #[command(after_help = help::EXPORT)]
     Export(ExportArguments),
@@ -150,6 +156,13 @@ enum Command {
         /// The shell
         shell: Shell,
     },
+    /// Writes manual pages for `man` into a folder, one per command
+    #[command(after_help = help::MANUAL)]
+    Manual {
+        /// The folder, which is created
+        #[arg(value_hint = ValueHint::DirPath)]
+        folder: PathBuf,
+    },
 }
 
 /// Runs a command line that begins with the program's name.
@@ -180,6 +193,7 @@ where
         Command::Reproduce(arguments) => reproduce_items(&arguments, console),
         Command::Sweep(arguments) => sweep_scene(&catalogue, &arguments, console),
         Command::Compare(arguments) => compare(&catalogue, &arguments, console),
+        Command::Report(arguments) => report_run(&catalogue, &arguments, console),
         Command::Export(arguments) => export_scene(&catalogue, &arguments, console),
         Command::Fmu(arguments) => write_fmu(&catalogue, &arguments, console),
         Command::Linearise(arguments) => linearise_scene(&catalogue, &arguments, console),
@@ -197,6 +211,9 @@ where
         Command::New(NewCommand::Scene(arguments)) => new_scene(&catalogue, &arguments, console),
         Command::Schema => console.print(&schema::text()).map(|()| Exit::Done).map_err(Error::from),
         Command::Completions { shell } => complete(&catalogue, shell, console),
+        Command::Manual { folder } => {
+            manual::write(&Cli::command(), &folder).map(|()| Exit::Done).map_err(Error::from)
+        }
     };
     finish(done, console)
 }
@@ -247,6 +264,17 @@ fn sweep_scene(
     } else if !arguments.quiet {
         console.print(&console.look.table(&outcome.rows()))?;
     }
+    Ok(Exit::Done)
+}
+
+fn report_run(
+    catalogue: &Catalogue,
+    arguments: &ReportArguments,
+    console: &mut Console<'_>,
+) -> Result<Exit, Error> {
+    let written = report(catalogue, arguments)?;
+    written.warnings.iter().for_each(|warning| console.note(warning));
+    console.print(&format!("written  {}\n", written.file.display()))?;
     Ok(Exit::Done)
 }
 

@@ -14,6 +14,7 @@
 //! - [`run`]: a scene becomes a trace, a summary and a report.
 //! - [`sweep`]: many values of a scene, a row per case.
 //! - [`compare`]: two recorded runs in one report.
+//! - [`report`]: a recorded run as a page.
 //! - [`trade`]: speed against accuracy. [`advise`]: a method for a microcontroller.
 //! - [`mod@reproduce`]: the reproduced results of the method's paper.
 //! - [`export`]: Rust source of a scene's const model and its plant.
@@ -24,7 +25,7 @@
 //! - [`mod@import`]: another program's file becomes a scene.
 //! - [`schema`]: the JSON Schema of scene files, for editors.
 //! - [`new`]: new firmware projects, crates of laws and scenes.
-//! - [`completions`]: a script for a shell.
+//! - [`completions`]: a script for a shell. [`manual`]: pages for `man`.
 
 pub mod advise;
 pub mod assembled;
@@ -40,6 +41,7 @@ pub mod hil;
 pub mod import;
 pub mod linearise;
 pub mod list;
+pub mod manual;
 pub mod mode_table;
 pub mod modes;
 pub mod new;
@@ -47,6 +49,7 @@ pub mod picture;
 pub mod planar;
 pub mod play;
 pub mod relax;
+pub mod report;
 pub mod reproduce;
 pub mod rounding;
 pub mod run;

@@ -334,7 +334,9 @@ impl Observer for Recorder<'_, '_> {
         }
         if let Some(recording) = &mut self.recording {
             let Sample { time, state, readings, energy, extensions, .. } = *sample;
-            recording.push(&dbd_report::Sample { time, state, readings, energy, extensions });
+            let sample =
+                dbd_report::Sample { time, state, readings, energy, extensions, others: &[] };
+            recording.push(&sample);
         }
         match &mut self.trace {
             Some(trace) => trace.row(sample),

@@ -137,6 +137,18 @@ impl Side {
     }
 }
 
+/// How far a run came; it is read to its end, which shows whether it is complete.
+///
+/// # Errors
+/// If a row cannot be read.
+pub fn end_of(run: Recorded) -> Result<End, Unreadable> {
+    let mut side = Side::new(run)?;
+    while side.row.is_some() {
+        side.step()?;
+    }
+    Ok(side.end)
+}
+
 /// Compares two runs; `look` sees every common sample.
 ///
 /// # Errors

@@ -30,6 +30,8 @@ pub const IMPORT: &str = examples!("import.txt");
 pub const LINEARISE: &str = examples!("linearise.txt");
 /// Examples of `list`.
 pub const LIST: &str = examples!("list.txt");
+/// Examples of `manual`.
+pub const MANUAL: &str = examples!("manual.txt");
 /// Examples of `modes`.
 pub const MODES: &str = examples!("modes.txt");
 /// Examples of `new c`.
@@ -44,6 +46,8 @@ pub const NEW_SCENE: &str = examples!("new-scene.txt");
 pub const PLAY: &str = examples!("play.txt");
 /// Examples of `relax`.
 pub const RELAX: &str = examples!("relax.txt");
+/// Examples of `report`.
+pub const REPORT: &str = examples!("report.txt");
 /// Examples of `reproduce`.
 pub const REPRODUCE: &str = examples!("reproduce.txt");
 /// Examples of `run`.

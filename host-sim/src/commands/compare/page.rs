@@ -23,7 +23,7 @@ use crate::comparison::pairing::Pairing;
 use crate::recorded::{Head, Recorded, Row, Unreadable};
 
 /// Largest number of bodies in a still picture.
-const MAX_PICTURED: usize = 500;
+pub const MAX_PICTURED: usize = 500;
 
 /// Longest description of two runs in a title.
 const LONGEST_TITLE: usize = 60;
@@ -198,8 +198,8 @@ fn command(called: [&Path; 2]) -> String {
 fn tables(comparison: &Comparison) -> Vec<Table> {
     let texts = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
     let mut rows = vec![
-        vec!["A".into(), words::run(comparison, 0)],
-        vec!["B".into(), words::run(comparison, 1)],
+        vec!["A".into(), words::run(&comparison.heads[0], comparison.ends[0])],
+        vec!["B".into(), words::run(&comparison.heads[1], comparison.ends[1])],
     ];
     let [from, until] = comparison.span.map(display);
     let compared = format!("{} samples from {from} to {until}", comparison.samples);

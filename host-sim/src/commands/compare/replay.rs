@@ -30,14 +30,14 @@ pub fn of_scene(
     let head = run.head.clone();
     let method = method(&head).unwrap_or_default();
     let plan = plan(&head, end);
-    let (mut recording, mut plant) = match begun(scene, &method, &plan) {
+    let columns = Columns::of(scene, &head);
+    let (mut recording, mut plant) = match begun(scene, &method, &plan, &columns.others) {
         Ok(begun) => begun,
         Err(why) => return Ok(Err(why.to_string())),
     };
     let mut monitor = Monitor::new(scene, plant.as_ref());
     let initial = plant.state();
-    let readings = scene.readouts.iter().map(|readout| readout.columns.len()).sum::<usize>();
-    let missing = vec![f64::NAN; readings];
+    let (mut readings, mut others) = (Vec::new(), Vec::new());
     while let Some(row) = run.next_row()? {
         let state = state_of(&initial, row);
         // A plant in this state evaluates its tables at this time.
@@ -45,6 +45,7 @@ pub fn of_scene(
             Ok(()) => plant.state(),
             Err(_) => state,
         };
+        let state = columns.with_inputs(state, row);
         let judged = monitor.check(&state);
         let energy = match (row.energies, judged) {
             (Some([kinetic, potential, _]), _) => {
@@ -53,9 +54,15 @@ pub fn of_scene(
             (None, Ok(verdict)) => verdict.energy,
             (None, Err(_)) => Energy::default(),
         };
-        let readings = if row.values.len() == readings { &row.values } else { &missing };
-        let extensions = monitor.extensions();
-        recording.push(&Sample { time: row.time, state: &state, readings, energy, extensions });
+        columns.fill(row, &mut readings, &mut others);
+        recording.push(&Sample {
+            time: row.time,
+            state: &state,
+            readings: &readings,
+            energy,
+            extensions: monitor.extensions(),
+            others: &others,
+        });
     }
     Ok(Ok(recording.finish().run))
 }
@@ -64,8 +71,56 @@ fn begun(
     scene: &Scene,
     method: &Method,
     plan: &Plan,
+    others: &[(String, String)],
 ) -> Result<(Recording, Box<dyn AnyPlant>), PlantError> {
-    Ok((Recording::new(scene, method, plan)?, plant(scene, method, plan.step)?))
+    Ok((Recording::with_others(scene, method, plan, others)?, plant(scene, method, plan.step)?))
+}
+
+/// Which of a run's recorded values are sensors, inputs and other numbers, by name.
+struct Columns {
+    /// One per column of the scene's sensors.
+    readings: Vec<Option<usize>>,
+    /// One per input.
+    inputs: Vec<Option<usize>>,
+    /// The other values, with their rows.
+    others: Vec<(String, String)>,
+    rows: Vec<usize>,
+}
+
+impl Columns {
+    fn of(scene: &Scene, head: &Head) -> Self {
+        let row_of = |name: &str| head.values.iter().position(|value| value.name == name);
+        let sensors = scene.readouts.iter().flat_map(|readout| {
+            readout.columns.iter().map(move |(suffix, _)| format!("{}{suffix}", readout.name))
+        });
+        let readings: Vec<_> = sensors.map(|name| row_of(&name)).collect();
+        let inputs: Vec<_> = scene.inputs.iter().map(|input| row_of(&input.name)).collect();
+        let known = |row: &usize| readings.contains(&Some(*row)) || inputs.contains(&Some(*row));
+        let rows: Vec<usize> = (0..head.values.len()).filter(|row| !known(row)).collect();
+        let others = rows.iter().map(|row| {
+            let value = &head.values[*row];
+            (value.name.clone(), value.unit.clone().unwrap_or_default())
+        });
+        Self { others: others.collect(), readings, inputs, rows }
+    }
+
+    /// The state with the inputs' recorded values.
+    fn with_inputs(&self, mut state: State<SceneModel<F64>>, row: &Row) -> State<SceneModel<F64>> {
+        for (signal, place) in state.signals.iter_mut().zip(&self.inputs) {
+            if let Some(value) = place.and_then(|place| row.values.get(place)) {
+                signal.value = *value;
+            }
+        }
+        state
+    }
+
+    fn fill(&self, row: &Row, readings: &mut Vec<f64>, others: &mut Vec<f64>) {
+        let value = |place: usize| row.values.get(place).copied().unwrap_or(f64::NAN);
+        readings.clear();
+        readings.extend(self.readings.iter().map(|place| place.map_or(f64::NAN, value)));
+        others.clear();
+        others.extend(self.rows.iter().map(|place| value(*place)));
+    }
 }
 
 /// The method of a run; `None` if this program does not include it.

@@ -30,6 +30,17 @@ pub fn scenes(catalogue: &Catalogue, heads: &[Head; 2]) -> [Result<Scene, String
     scenes
 }
 
+/// The scene of one run, or the reason why it is missing.
+///
+/// # Errors
+/// The reason, for people.
+pub fn scene(catalogue: &Catalogue, head: &Head) -> Result<Scene, String> {
+    match head.kind {
+        Kind::Run => of_run(catalogue, head),
+        Kind::Golden => of_golden(catalogue, head, &Err(String::new())),
+    }
+}
+
 fn of_run(catalogue: &Catalogue, head: &Head) -> Result<Scene, String> {
     let called = match head.scene_file.as_deref() {
         None => return Err("its summary does not name the scene's file".into()),
@@ -74,7 +85,10 @@ fn of_golden(
 }
 
 /// The scene, if its bodies are those of the run.
-fn fits(scene: Scene, head: &Head) -> Result<Scene, String> {
+///
+/// # Errors
+/// The reason, for people.
+pub fn fits(scene: Scene, head: &Head) -> Result<Scene, String> {
     if scene.body_names == head.bodies {
         Ok(scene)
     } else {

@@ -4,8 +4,9 @@ use dbd_plant::digits::significant;
 use dbd_plant::time::{display, rounded};
 
 use crate::commands::compare::differs::{Differs, differs, grouped};
+use crate::comparison::run::End;
 use crate::comparison::{Comparison, Quantity, Verdict};
-use crate::recorded::Kind;
+use crate::recorded::{Head, Kind};
 use crate::terminal::Look;
 
 /// Longest list of names.
@@ -13,8 +14,7 @@ const MAX_NAMES: usize = 8;
 
 /// The properties of a run in a line.
 #[must_use]
-pub fn run(comparison: &Comparison, side: usize) -> String {
-    let (head, end) = (&comparison.heads[side], comparison.ends[side]);
+pub fn run(head: &Head, end: End) -> String {
     let newton =
         head.newton.filter(|newton| *newton > 0).map(|n| format!(" with {n} Newton iterations"));
     let what = if head.kind == Kind::Golden { "golden, " } else { "" };
@@ -148,7 +148,8 @@ pub fn quantity(quantity: &Quantity, banded: bool) -> [String; 6] {
 /// The printed text.
 #[must_use]
 pub fn text(comparison: &Comparison, look: Look) -> String {
-    let mut rows = vec![("A", run(comparison, 0)), ("B", run(comparison, 1))];
+    let [a, b] = &comparison.heads;
+    let mut rows = vec![("A", run(a, comparison.ends[0])), ("B", run(b, comparison.ends[1]))];
     for Differs { what, a, b } in grouped(differs(comparison)) {
         let side = |side: Option<String>| side.unwrap_or_else(|| "–".into());
         rows.push(("differs", format!("{what}: {} in A, {} in B", side(a), side(b))));

@@ -195,7 +195,7 @@ pub fn written(html: &str, out: Option<&Path>, page: &Page) -> Result<PathBuf, P
 }
 
 /// Whether a file begins as a page does; an empty file may be replaced.
-fn is_page(file: &Path) -> bool {
+pub(crate) fn is_page(file: &Path) -> bool {
     let begins = |bytes: Vec<u8>| bytes.is_empty() || bytes.starts_with(b"<!doctype html>");
     read(file, MAX_MODULE).is_ok_and(begins)
 }
