@@ -14,7 +14,7 @@ use crate::python;
 
 /// The glibc that the library for Linux asks for at most: that of CentOS 7 and manylinux2014.
 const GLIBC: &str = "2.17";
-const LINUX: &str = "x86_64-unknown-linux-gnu";
+pub const LINUX: &str = "x86_64-unknown-linux-gnu";
 const WINDOWS: &str = "x86_64-pc-windows-gnu";
 const MINGW: &str = "x86_64-w64-mingw32-gcc";
 const MINGW_PACKAGE: &str = "gcc-mingw-w64-x86-64-posix";
@@ -32,12 +32,8 @@ pub fn build() -> Result<()> {
     let folder = root().join("target/libraries");
     std::fs::create_dir_all(&folder).context("cannot make target/libraries")?;
     let linux = folder.join("libdbd_fmu.so");
-    std::fs::copy(for_linux(&folder)?, &linux).context("cannot copy the library")?;
-    let asked = newest_symbol(&linux)?;
-    println!("{} requires glibc {asked}", linux.display());
-    if version(&asked) > version(GLIBC) {
-        bail!("the library requires glibc {asked}, at most {GLIBC} is permitted");
-    }
+    std::fs::copy(for_linux()?, &linux).context("cannot copy the library")?;
+    is_for_older_linux(&linux)?;
     let windows = folder.join("dbd_fmu.dll");
     std::fs::copy(for_windows()?, &windows).context("cannot copy the library")?;
     let Some(wine) = WINE.iter().find(|name| find(name).is_some() || Path::new(name).is_file())
@@ -52,22 +48,60 @@ pub fn build() -> Result<()> {
 /// What is handed to others holds no lines and no names of ours.
 fn bare(command: &mut Command) -> &mut Command {
     command
-        .args(["--release", "--package", "dbd-fmu", "--lib"])
+        .arg("--release")
         .env("CARGO_PROFILE_RELEASE_DEBUG", "0")
         .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
 }
 
-fn for_linux(folder: &Path) -> Result<PathBuf> {
+fn for_linux() -> Result<PathBuf> {
+    let (mut command, images) = for_older_linux("cargo-zigbuild")?;
+    command.arg("rustc");
+    run(bare(&mut command).args(["--package", "dbd-fmu", "--lib"]).args(["--target", &target()]))?;
+    Ok(images.join("libdbd_fmu.so"))
+}
+
+/// `host-sim` for the same Linux, without names of ours.
+///
+/// # Errors
+/// Where it does not build, or asks for a newer glibc.
+pub fn host_sim() -> Result<PathBuf> {
+    let (mut command, images) = for_older_linux("cargo-zigbuild")?;
+    command.arg("build");
+    run(bare(&mut command)
+        .args(["--locked", "--package", "host-sim", "--bin", "host-sim"])
+        .args(["--target", &target()]))?;
+    let program = images.join("host-sim");
+    is_for_older_linux(&program)?;
+    Ok(program)
+}
+
+/// A program that builds for an older Linux, and where cargo puts what it builds.
+///
+/// # Errors
+/// Where its packages cannot be had.
+pub fn for_older_linux(name: &str) -> Result<(Command, PathBuf)> {
     let python = python::environment("libraries", "crates/fmu/requirements-libraries.txt")?;
     let tools = python.parent().context("the path of the interpreter has no folder")?.to_owned();
     let path = std::env::var_os("PATH").unwrap_or_default();
     let path =
         std::env::join_paths(std::iter::once(tools.clone()).chain(std::env::split_paths(&path)))?;
-    let mut command = program(tools.join("cargo-zigbuild"));
-    command.arg("rustc");
-    bare(&mut command).args(["--target", &format!("{LINUX}.{GLIBC}")]);
-    run(command.env("PATH", path).env("CARGO_TARGET_DIR", folder.join("zig")))?;
-    Ok(folder.join("zig").join(LINUX).join("release/libdbd_fmu.so"))
+    let target = root().join("target/libraries/zig");
+    let mut command = program(tools.join(name));
+    command.env("PATH", path).env("CARGO_TARGET_DIR", &target);
+    Ok((command, target.join(LINUX).join("release")))
+}
+
+fn target() -> String {
+    format!("{LINUX}.{GLIBC}")
+}
+
+fn is_for_older_linux(image: &Path) -> Result<()> {
+    let asked = newest_symbol(image)?;
+    println!("{} requires glibc {asked}", image.display());
+    if version(&asked) > version(GLIBC) {
+        bail!("{} requires glibc {asked}, at most {GLIBC} is permitted", image.display());
+    }
+    Ok(())
 }
 
 fn for_windows() -> Result<PathBuf> {
@@ -77,7 +111,8 @@ fn for_windows() -> Result<PathBuf> {
     }
     let toolchain = Toolchain::with_linker(WINDOWS, Some(MINGW.into()))?;
     println!("{}", toolchain.describe()?);
-    run(bare(&mut toolchain.cargo("rustc", "std,panic_unwind")))?;
+    let mut command = toolchain.cargo("rustc", "std,panic_unwind");
+    run(bare(&mut command).args(["--package", "dbd-fmu", "--lib"]))?;
     Ok(toolchain.images("release").join("dbd_fmu.dll"))
 }
 

@@ -14,6 +14,7 @@
 //! - `bench`, `growth`, `prove`, `precisions`, `compile_times`, `fuzz`: measurements and random input.
 //! - `playground`, `bits`: the kernel in a browser; the same bits everywhere.
 //! - `boards`, `hil`, `python`, `libraries`, `packages`, `semver`: firmware, other languages, published crates.
+//! - `release`: artefacts for users, each tried.
 //! - `test`: all checks.
 
 mod attended;
@@ -39,6 +40,7 @@ mod precisions;
 mod prove;
 mod provenance;
 mod python;
+mod release;
 mod semver;
 mod steps;
 mod test;
@@ -196,6 +198,11 @@ enum Command {
     },
     /// Checks that the published crates can be packaged and that their metadata are complete.
     Packages,
+    /// Makes what users get, in target/artefacts, and uses each in an empty folder as a stranger would; publishes nothing.
+    Release {
+        /// Parts to make [default: all].
+        parts: Vec<release::Part>,
+    },
     /// Compares the published crates' interfaces with those of a revision, by cargo-semver-checks.
     Semver {
         /// A revision of this repository, e.g. the tag of a version.
@@ -240,6 +247,7 @@ fn main() -> ExitCode {
         Command::Playground { measure: true } => playground::measure(),
         Command::Playground { .. } => playground::make(),
         Command::Packages => packages::check(),
+        Command::Release { parts } => release::run(&parts),
         Command::Semver { revision } => semver::run_against(&revision),
         Command::Audit => audit::run(),
     });

@@ -50,15 +50,17 @@ pub fn check() -> Result<()> {
     Ok(())
 }
 
-/// The crates that are published, by name.
+/// Name and version of the crates that are published.
 ///
 /// # Errors
 /// Where cargo does not tell.
-pub fn published() -> Result<Vec<String>> {
+pub fn published() -> Result<Vec<(String, String)>> {
     let text = output(cargo().args(["metadata", "--no-deps", "--format-version", "1"]))?;
     let metadata: Value = serde_json::from_str(&text).context("cargo printed no JSON")?;
     let packages = metadata["packages"].as_array().context("cargo listed no packages")?;
-    Ok(packages.iter().filter(|one| is_published(one)).map(|one| name(one).to_owned()).collect())
+    let version = |one: &Value| one["version"].as_str().unwrap_or_default().to_owned();
+    let published = packages.iter().filter(|one| is_published(one));
+    Ok(published.map(|one| (name(one).to_owned(), version(one))).collect())
 }
 
 fn name(package: &Value) -> &str {

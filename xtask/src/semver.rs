@@ -20,7 +20,7 @@ pub fn run_against(revision: &str) -> Result<()> {
     }
     let mut command = cargo();
     command.args([TOOL, "--baseline-rev", revision, "--all-features"]);
-    for name in published()? {
+    for (name, _) in published()? {
         command.args(["--package", &name]);
     }
     run(&mut command)

@@ -33,7 +33,7 @@ class Picture:
             from matplotlib.figure import Figure
             from matplotlib.patches import Rectangle
         except ImportError as error:
-            raise gymnasium.error.DependencyNotInstalled("pictures need matplotlib: pip install 'dbd[gym]'") from error
+            raise gymnasium.error.DependencyNotInstalled("pictures need matplotlib: pip install 'dbd-sim[gym]'") from error
         self._window = window
         self._pause: Any = None
         if window:

@@ -105,6 +105,19 @@ impl Toolchain {
         Ok(format!("{version} ({name})"))
     }
 
+    /// The manifest of the library sources that it builds, `None` where it builds none.
+    ///
+    /// # Errors
+    /// Where the compiler does not run.
+    pub fn library_manifest(&self) -> Result<Option<PathBuf>> {
+        let below = |sysroot: &Path| sysroot.join("lib/rustlib/src/rust/library/Cargo.toml");
+        Ok(match self.way {
+            Way::Prebuilt => None,
+            Way::RustSrc => Some(below(&host_sysroot()?)),
+            Way::Debian => Some(below(Path::new(DEBIAN_SYSROOT))),
+        })
+    }
+
     /// The triple of its target.
     pub fn target(&self) -> &str {
         &self.target

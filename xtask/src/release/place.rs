@@ -1,0 +1,28 @@
+//! Where artefacts lie.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, Result};
+
+use crate::command::root;
+
+/// A folder of artefacts, which is created.
+///
+/// # Errors
+/// Where it cannot be created.
+pub fn folder(name: &str) -> Result<PathBuf> {
+    let folder = root().join("target/artefacts").join(name);
+    fs::create_dir_all(&folder).with_context(|| format!("cannot create {}", folder.display()))?;
+    Ok(folder)
+}
+
+/// The first file of a folder with this ending.
+///
+/// # Errors
+/// Where there is none.
+pub fn only(folder: &Path, ending: &str) -> Result<PathBuf> {
+    let files = fs::read_dir(folder)?.filter_map(Result::ok).map(|entry| entry.path());
+    let mut files = files.filter(|file| file.to_string_lossy().ends_with(ending));
+    files.next().with_context(|| format!("no {ending} in {}", folder.display()))
+}
