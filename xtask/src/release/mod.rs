@@ -22,7 +22,7 @@ use clap::ValueEnum;
 
 use crate::libraries;
 use crate::playground::{self, Speed};
-use crate::release::place::folder;
+use crate::release::place::{emptied, folder};
 use crate::release::stranger::Stranger;
 use crate::steps::Steps;
 
@@ -47,18 +47,18 @@ pub fn run(parts: &[Part]) -> Result<()> {
     let stranger = Stranger::new()?;
     let mut steps = Steps::default();
     if wanted(Part::Crates) {
-        steps.step("crates: packages", || registry::make(&folder("crates")?));
+        steps.step("crates: packages", || registry::make(&emptied("crates")?));
         steps.step("crates: cargo install host-sim", || registry::install(&stranger));
         steps.step("crates: a new firmware project", || registry::firmware(&stranger));
     }
     if wanted(Part::Archive) {
         steps.step("archive: libraries of FMUs", libraries::build);
         steps.step("archive: module of live views", || playground::module(Speed::Full).map(drop));
-        steps.step("archive: host-sim", || archive::make(&folder("archive")?));
+        steps.step("archive: host-sim", || archive::make(&emptied("archive")?));
         steps.step("archive: used", || archive::try_out(&folder("archive")?, &stranger));
     }
     if wanted(Part::Wheel) {
-        steps.step("wheel: built", || wheel::make(&folder("python")?));
+        steps.step("wheel: built", || wheel::make(&emptied("python")?));
         steps.step("wheel: used", || wheel::try_out(&folder("python")?, &stranger));
     }
     println!("\n{}", table(&artefacts)?);

@@ -17,6 +17,16 @@ pub fn folder(name: &str) -> Result<PathBuf> {
     Ok(folder)
 }
 
+/// The same folder without what an earlier release left in it.
+///
+/// # Errors
+/// Where it cannot be emptied or created.
+pub fn emptied(name: &str) -> Result<PathBuf> {
+    let old = folder(name)?;
+    fs::remove_dir_all(&old).with_context(|| format!("cannot empty {}", old.display()))?;
+    folder(name)
+}
+
 /// The first file of a folder with this ending.
 ///
 /// # Errors

@@ -12,7 +12,7 @@ use crate::chip::firmware::LIBRARIES;
 use crate::chip::setup;
 use crate::command::{cargo, output, program, run, target_dir};
 use crate::packages;
-use crate::release::place::folder;
+use crate::release::place::{emptied, folder};
 use crate::release::stranger::{Stranger, hash_of};
 
 /// The packages and their dependencies, unpacked.
@@ -24,8 +24,7 @@ const REGISTRY: &str = "registry";
 /// Where a package is incomplete or refused.
 pub fn make(crates: &Path) -> Result<()> {
     packages::check()?;
-    let registry = folder(REGISTRY)?;
-    fs::remove_dir_all(&registry).context("cannot empty the folder of packages")?;
+    let registry = emptied(REGISTRY)?;
     let mut vendor = cargo();
     vendor.args(["vendor", "--locked", "--versioned-dirs"]).arg(&registry);
     // What cargo builds for the target needs packages of its own.

@@ -3,7 +3,6 @@
 //! `python/ => target/artefacts/python/*.whl`, with the wheels that it needs as a local index; a stranger installs it into
 //! an empty environment without any other index.
 
-use std::fs;
 use std::path::Path;
 
 use anyhow::{Context as _, Result, bail};
@@ -25,8 +24,6 @@ const SCRIPT: &str =
 /// # Errors
 /// Where it does not build, or a package cannot be had.
 pub fn make(folder: &Path) -> Result<()> {
-    let _ = fs::remove_dir_all(folder);
-    fs::create_dir_all(folder)?;
     let (mut maturin, _) = for_older_linux("maturin")?;
     maturin.args(["build", "--release", "--locked", "--zig", "--compatibility", "manylinux2014"]);
     maturin.args(["--target", LINUX, "--manifest-path", "python/Cargo.toml", "--out"]);
