@@ -82,11 +82,19 @@ type Notes = BTreeMap<String, Note>;
 /// The step of `cargo xtask test`.
 ///
 /// # Errors
-/// Where a file has no note, was changed without one, or is stale; each with what measures it anew.
+/// Where a file has no note, was changed without one, or is stale; each with what measures it anew. Where a table of a
+/// page has other data than those noted.
 pub fn check() -> Result<()> {
     let text = std::fs::read_to_string(root().join(FILE))
         .with_context(|| format!("cannot read {FILE}"))?;
-    let faults = faults(&DATA, &read(&text), &present)?;
+    let notes = read(&text);
+    let mut faults = faults(&DATA, &notes, &present)?;
+    for page in pages()? {
+        let text = std::fs::read_to_string(&page)
+            .with_context(|| format!("cannot read {}", page.display()))?;
+        let name = page.strip_prefix(root()).unwrap_or(&page).display().to_string();
+        faults.extend(older_tables(&name, &text, &notes));
+    }
     if !faults.is_empty() {
         bail!("{}", faults.join("\n"));
     }
@@ -152,6 +160,31 @@ fn read(text: &str) -> Notes {
         Some((file, Note { commit, date, own, stands_on, stale }))
     };
     text.lines().skip(1).filter_map(row).collect()
+}
+
+/// The pages with tables.
+fn pages() -> Result<Vec<PathBuf>> {
+    let mut files = vec![root().join("README.md")];
+    list(&root().join("docs"), &mut files)?;
+    files.retain(|file| file.extension().is_some_and(|ending| ending == "md"));
+    Ok(files)
+}
+
+/// The tables of a page that were written from other data than those noted.
+fn older_tables(page: &str, text: &str, notes: &Notes) -> Vec<String> {
+    let lines = text.lines().filter(|line| line.starts_with("Data: "));
+    let older = |line: &str, (file, note): (&String, &Note)| {
+        let name = file.rsplit('/').next().unwrap_or(file);
+        let named = line.contains(&format!(" {name} of "));
+        let Note { commit, date, stale, .. } = note;
+        let end = if stale.is_empty() { ")" } else { ", stale)" };
+        let fresh = line.contains(&format!(" {name} of {commit} ({date}{end}"));
+        (named && !fresh).then(|| {
+            format!("{page}: a table has older data of {file} than those noted: cargo xtask tables")
+        })
+    };
+    let of_line = |line| notes.iter().filter_map(move |note| older(line, note));
+    lines.flat_map(of_line).collect()
 }
 
 fn faults(
@@ -247,6 +280,20 @@ mod tests {
         let changed = found(&noted("another", "b.csv,"));
         assert!(changed.len() == 1 && changed[0].contains("was changed since"), "{changed:?}");
         assert_eq!(found(&Notes::new()).len(), 2);
+    }
+
+    #[test]
+    fn a_table_of_older_data_is_named() {
+        let notes = noted("a.csv", "b.csv,");
+        let found = |line: &str| older_tables("docs/x.md", line, &notes);
+        assert!(found("Data: a.csv of abc1234 (2026-11-25), c.csv of d (e).").is_empty());
+        assert!(found("Prose: a.csv of another (2026-11-20).").is_empty());
+        let older = found("Data: c.csv of d (e), a.csv of abc1230 (2026-11-20).");
+        assert!(older.len() == 1 && older[0].contains("docs/x.md: a table has older"), "{older:?}");
+        assert_eq!(found("Data: a.csv of abc1234 (2026-11-25, stale).").len(), 1);
+        let kept = noted("a.csv", "b.csv,b.csv");
+        let marked = "Data: a.csv of abc1234 (2026-11-25, stale).";
+        assert!(older_tables("docs/x.md", marked, &kept).is_empty());
     }
 
     #[test]
