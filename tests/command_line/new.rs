@@ -303,3 +303,41 @@ fn a_scene_without_a_step_has_one_default_step() {
         assert_eq!(settings.step_of(&parsed, &method).unwrap(), taken);
     }
 }
+
+/// Every template runs as it is, without a warning, moves, and names itself alone.
+#[test]
+fn every_template_of_a_scene_runs() {
+    let folder = Folder::new();
+    let help = call(&["new", "scene", "--help"]).out;
+    let kinds: Vec<&str> = help
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("- "))
+        .filter_map(|line| line.split(':').next())
+        .collect();
+    assert!(kinds.contains(&"linkage") && kinds.contains(&"drive-train"), "{help}");
+    assert_eq!(kinds.len(), 6, "{kinds:?}");
+    for kind in kinds {
+        let file = folder.path(&format!("my-{kind}.toml"));
+        let name = file.with_extension("");
+        let done = call(&["new", "scene", name.to_str().unwrap(), "--template", kind]);
+        assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""), "{kind}");
+        let text = fs::read_to_string(&file).unwrap();
+        assert!(!text.contains("{{") && text.contains(&format!("name = \"my-{kind}\"")), "{kind}");
+        let done = folder.run(file.to_str().unwrap(), &["--duration", "1s"]);
+        assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""), "{kind}");
+        assert!(!done.out.contains("warning"), "{kind}: {}", done.out);
+        let trace = folder.trace(&format!("my-{kind}"));
+        let moves = |column: &str| {
+            let row = trace.header.iter().position(|name| name == column).unwrap();
+            let value = |cells: &Vec<String>| cells[row].parse::<f64>().unwrap();
+            trace.rows.iter().any(|cells| (value(cells) - value(&trace.rows[0])).abs() > 1e-3)
+        };
+        let scene = dbd_scene::Scene::load(&file).unwrap();
+        let columns = scene.readouts.iter().flat_map(|readout| {
+            readout.columns.iter().map(move |(end, _)| format!("{}{end}", readout.name))
+        });
+        assert!(columns.collect::<Vec<_>>().iter().any(|column| moves(column)), "{kind} moves");
+    }
+    let both = ["new", "scene", "x", "--template", "cart", "--from", "four-bar"];
+    assert_eq!(call(&both).exit, Exit::Refused);
+}

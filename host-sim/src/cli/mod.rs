@@ -335,7 +335,8 @@ fn new_scene(
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
     let from = arguments.from.as_ref().map(|scene| catalogue.load(scene)).transpose()?;
-    console.print(&scene(&arguments.name, from.as_ref().map(|found| found.text.as_str()))?)?;
+    let copied = from.as_ref().map(|found| found.text.as_str());
+    console.print(&scene(&arguments.name, copied, arguments.template)?)?;
     Ok(Exit::Done)
 }
 

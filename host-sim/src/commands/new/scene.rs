@@ -5,14 +5,43 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueHint};
+use clap::{Args, ValueEnum, ValueHint};
 use dbd_report::output::file::write_at;
 use dbd_scene::file::read_text;
 
 use super::{NewError, filled, name};
 use crate::commands::schema;
 
-const TEMPLATE: &str = include_str!("../../../templates/scene/crank-rocker.toml.in");
+/// A kind of mechanism to begin with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Template {
+    /// A crank, driven by a motor, a coupler and a rocker.
+    #[default]
+    Linkage,
+    /// A cart on a rail with a pendulum, stops and friction.
+    Cart,
+    /// An arm of three joints with limits, friction and servos.
+    RobotArm,
+    /// A quarter of a car: tyre, spring, digressive damper, bump stop, road.
+    VehicleCorner,
+    /// Two coupled fingers that grasp a ball.
+    Gripper,
+    /// A motor with winding and gear that turns a flywheel.
+    DriveTrain,
+}
+
+impl Template {
+    fn text(self) -> &'static str {
+        match self {
+            Self::Linkage => include_str!("../../../templates/scene/crank-rocker.toml.in"),
+            Self::Cart => include_str!("../../../templates/scene/cart.toml.in"),
+            Self::RobotArm => include_str!("../../../templates/scene/robot-arm.toml.in"),
+            Self::VehicleCorner => include_str!("../../../templates/scene/vehicle-corner.toml.in"),
+            Self::Gripper => include_str!("../../../templates/scene/gripper.toml.in"),
+            Self::DriveTrain => include_str!("../../../templates/scene/drive-train.toml.in"),
+        }
+    }
+}
 
 /// A new scene.
 #[derive(Clone, Debug, Args)]
@@ -23,13 +52,16 @@ pub struct SceneArguments {
     /// Start from a copy of a scene, by name (see list) or by a path to its file
     #[arg(long, value_name = "SCENE", value_hint = ValueHint::FilePath)]
     pub from: Option<String>,
+    /// Start from a kind of mechanism
+    #[arg(long, value_name = "KIND", value_enum, default_value_t, conflicts_with = "from")]
+    pub template: Template,
 }
 
-/// Writes a scene, a copy of a text where there is one, and says what to type next.
+/// Writes a scene, a copy of a text where there is one, else of a template, and says what to type next.
 ///
 /// # Errors
 /// [`NewError`]; no scene is written then.
-pub fn scene(path: &Path, copied: Option<&str>) -> Result<String, NewError> {
+pub fn scene(path: &Path, copied: Option<&str>, template: Template) -> Result<String, NewError> {
     let own = path.file_name().and_then(|name| name.to_str()).or(path.to_str());
     let own = own.unwrap_or_default();
     let own = own.strip_suffix(".toml").unwrap_or(own);
@@ -45,7 +77,7 @@ pub fn scene(path: &Path, copied: Option<&str>) -> Result<String, NewError> {
     }
     let text = match copied {
         Some(text) => format!("#:schema ./{}\n{}", schema::FILE, renamed(text, own)),
-        None => filled(TEMPLATE, &[("name", own.to_owned())]),
+        None => filled(template.text(), &[("name", own.to_owned())]),
     };
     // A missing folder is reported by its own name.
     let folder = file.parent().filter(|folder| *folder != Path::new(""));
