@@ -10,6 +10,7 @@
 //! - `arguments`: arguments from Python, and results as arrays.
 //! - `states`: the bodies' states as arrays.
 //! - `plant`: the class `Plant`, its names and parameters.
+//! - `film`: samples of a plant, and the page that shows them.
 //! - `motion`: its methods for stepping, setting, reading and saving.
 
 mod error;
@@ -22,6 +23,7 @@ mod states;
 
 mod plant;
 
+mod film;
 mod motion;
 
 pub use dbd_scene::laws;
@@ -115,6 +117,8 @@ mod _dbd {
     use pyo3::prelude::*;
     use pyo3::types::{PyDict, PyMappingProxy};
 
+    #[pymodule_export]
+    use crate::film::Film;
     #[pymodule_export]
     use crate::plant::Plant;
     #[pymodule_export]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 
 import numpy as np
@@ -93,3 +94,35 @@ def test_a_plot_has_a_line_per_column_and_axes_per_unit(tmp_path: Path) -> None:
     figure.savefig(tmp_path / "run.png")
     assert (tmp_path / "run.png").stat().st_size > 1000
     assert len(recording.plot(["angle"]).axes) == 1
+
+
+def charts(page: Path) -> dict[str, dict[str, object]]:
+    """The curves of a page by title."""
+    data = json.loads(page.read_text().split('id="report">')[1].split("</script>")[0])
+    assert data["runs"][0]["film"], "it is animated"
+    return {chart["title"]: chart for chart in data["runs"][0]["charts"]}
+
+
+def test_a_run_of_ones_own_is_a_page(tmp_path: Path) -> None:
+    recording = driven()
+    page = tmp_path / "run.html"
+    ticks = np.arange(len(recording)) / 10
+    recording.report(page, {"integral": ("rad*s", ticks)})
+    seen = charts(page)
+    for title, low, high in [("drive", -1.0, 2.0), ("integral", 0.0, 1.0)]:
+        line = seen[title]["lines"][0]  # type: ignore[index]
+        assert (line["low"], line["high"]) == (low, high), title
+    angle = seen["angle"]["lines"][0]  # type: ignore[index]
+    assert (angle["low"], angle["high"]) == pytest.approx((recording["angle"].min(), recording["angle"].max()))
+    # What was dropped after a reset is not shown.
+    recording.plant.reset()
+    recording.advance(10)
+    recording.report(page)
+    assert "integral" not in charts(page) and len(recording) == 2
+
+
+def test_a_curve_has_one_value_per_sample(tmp_path: Path) -> None:
+    recording = driven()
+    with pytest.raises(ValueError, match="one value per sample"):
+        recording.report(tmp_path / "run.html", {"integral": ("", [1.0])})
+    assert not (tmp_path / "run.html").exists()

@@ -148,6 +148,15 @@ class Plant:
     ) -> Linear:
         """The plant as a linear system near its present state."""
 
+class Film:
+    """The samples of a plant for the page of its run."""
+
+    def __init__(self, plant: Plant) -> None: ...
+    def sample(self, plant: Plant) -> None:
+        """Takes a sample; those at its time and later are dropped."""
+    def html(self, others: Sequence[tuple[str, str]], values: Sequence[Sequence[float]]) -> str:
+        """The page, with further curves: names and units, and a row of values per sample."""
+
 def rollouts(
     plants: Sequence[Plant],
     u: ArrayLike | int,

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._dbd import Plant
+from ._dbd import Film, Plant
 from ._errors import UnknownName
 
 if TYPE_CHECKING:
@@ -56,6 +57,7 @@ class Recording:
         """Column to SI unit."""
         self._outputs = [name for name in self.columns[1:] if name in plant.outputs]
         self._rows: list[list[float]] = []
+        self._film = Film(plant)
         self.sample()
 
     def sample(self) -> None:
@@ -67,6 +69,7 @@ class Recording:
         while self._rows and self._rows[-1][0] >= row[0]:
             self._rows.pop()
         self._rows.append(row)
+        self._film.sample(plant)
 
     def advance(self, steps: int) -> None:
         """Advances by the given number of steps with held inputs, with a row before and after.
@@ -100,6 +103,30 @@ class Recording:
             writer = csv.writer(out, lineterminator="\n")
             writer.writerow(self.columns)
             writer.writerows(["" if value != value else repr(value) for value in row] for row in self._rows)
+
+    def report(
+        self,
+        file: str | PathLike[str],
+        curves: Mapping[str, tuple[str, Sequence[float] | NDArray[np.float64]]] | None = None,
+    ) -> None:
+        """Writes the page of `host-sim run`: the mechanism in motion, forces, and curves of energies, outputs, inputs,
+        joints and bodies.
+
+        Args:
+            file: The page, one self-contained HTML file; an existing file is replaced.
+            curves: Further curves by name, such as a controller's state: the unit, and a value per sample.
+
+        Raises:
+            ValueError: A further curve has not one value per sample.
+        """
+        further = {} if curves is None else curves
+        columns = [np.asarray(values, dtype=float) for _, values in further.values()]
+        for name, values in zip(further, columns, strict=True):
+            if values.shape != (len(self),):
+                raise ValueError(f"curve `{name}` has shape {values.shape}, not ({len(self)},): one value per sample")
+        rows = np.column_stack(columns).tolist() if columns else [[]] * len(self)
+        units = [(name, unit) for name, (unit, _) in further.items()]
+        Path(file).write_text(self._film.html(units, rows), encoding="utf-8")
 
     def plot(self, names: Iterable[str] | None = None) -> Figure:
         """A figure of columns over time, one pair of axes per unit; it needs matplotlib.
