@@ -165,7 +165,7 @@ fn bash_completes_commands_options_and_scenes() {
         "$function" host-sim "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD-1]}"
         echo "${COMPREPLY[*]}""#;
     for (words, offered) in [
-        ("r", "reproduce run relax"),
+        ("r", "reproduce run relax report"),
         ("run four", "four-bar"),
         ("trade five", "five-bar-a five-bar-b"),
         ("run four-bar --overw", "--overwrite"),
