@@ -4,7 +4,7 @@ use std::fs;
 
 use dbd_golden::Recording;
 use dbd_plant::{Method, plant};
-use dbd_tests::scene;
+use dbd_tests::{scene, scene_text};
 use host_sim::terminal::Exit;
 use serde_json::Value;
 
@@ -81,6 +81,17 @@ fn a_run_of_the_command_line_is_shown_again() {
     assert_eq!(of_run["runs"][0]["film"]["poses"], again["runs"][0]["film"]["poses"]);
     let angles = [&of_run, &again].map(|data| chart(data, "readouts", "angle")["lines"].clone());
     assert_eq!(angles[0], angles[1]);
+}
+
+#[test]
+fn a_scene_with_other_numbers_is_noted() {
+    let folder = Folder::new();
+    let file = folder.path("pendulum.golden");
+    fs::write(&file, recorded(SCENE)).unwrap();
+    let other = folder.scene(&scene_text(SCENE).replace("-9.81", "-1.62"));
+    let done = call(&["report", file.to_str().unwrap(), "--scene", &other]);
+    assert_eq!(done.exit, Exit::Done, "{}", done.err);
+    assert!(done.err.contains("has other numbers than the recorded model"), "{}", done.err);
 }
 
 #[test]

@@ -82,8 +82,8 @@ type Notes = BTreeMap<String, Note>;
 /// The step of `cargo xtask test`.
 ///
 /// # Errors
-/// Where a file has no note, was changed without one, or is stale; each with what measures it anew. Where a table of a
-/// page has other data than those noted.
+/// Where a file has no note, was changed without one, or is stale, or a page's table was written from older data; each
+/// with the command that renews it.
 pub fn check() -> Result<()> {
     let text = std::fs::read_to_string(root().join(FILE))
         .with_context(|| format!("cannot read {FILE}"))?;

@@ -150,8 +150,8 @@ fn asked(
         let bodies = head.bodies.join(", ");
         return Err(ReportError::Bodies { called: called.to_owned(), bodies });
     };
-    let own = head.model.is_some_and(|model| model != model_hash(&*scene.in_world()));
-    if own {
+    let differs = head.model.is_some_and(|model| model != model_hash(&*scene.in_world()));
+    if differs {
         warnings.push(format!(
             "`{called}` has other numbers than the recorded model: forces and energies are those of the scene"
         ));

@@ -31,7 +31,6 @@ pub fn make(folder: &Path) -> Result<()> {
     let version = version.split_whitespace().nth(1).context("host-sim has no version")?;
     let name = format!("host-sim-{version}");
     let content = folder.join(&name);
-    let _ = fs::remove_dir_all(&content);
     fs::create_dir_all(content.join("completions"))?;
     let host_sim = content.join("host-sim");
     fs::copy(&built, &host_sim)?;

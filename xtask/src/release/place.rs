@@ -30,7 +30,7 @@ pub fn emptied(name: &str) -> Result<PathBuf> {
 /// The first file of a folder with this ending.
 ///
 /// # Errors
-/// Where there is none.
+/// Where no file has it.
 pub fn only(folder: &Path, ending: &str) -> Result<PathBuf> {
     let files = fs::read_dir(folder)?.filter_map(Result::ok).map(|entry| entry.path());
     let mut files = files.filter(|file| file.to_string_lossy().ends_with(ending));

@@ -18,7 +18,7 @@ use crate::release::stranger::{Stranger, hash_of};
 /// The packages and their dependencies, unpacked.
 const REGISTRY: &str = "registry";
 
-/// Makes all packages, and the folder that stands for the registry.
+/// Makes all packages, and the folder that replaces the registry.
 ///
 /// # Errors
 /// Where a package is incomplete or refused.
