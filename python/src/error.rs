@@ -60,6 +60,7 @@ impl From<InstanceError> for Refusal {
             InstanceError::Failed { time, step, .. } => ("StepFailed", Some((time, step))),
             InstanceError::State(_) => ("StateError", None),
             InstanceError::Linearisation { .. } => ("LinearisationError", None),
+            InstanceError::Restless(_) => ("EquilibriumError", None),
         };
         Self { class, sentence, failed }
     }

@@ -10,7 +10,7 @@ use numpy::{
     AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyUntypedArrayMethods as _, ToPyArray as _,
 };
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 use crate::arguments::{self, Held, Seconds};
 use crate::error::{Refusal, raise};
@@ -223,6 +223,56 @@ impl Plant {
             .detach(|| course.run(instance, &held, Watch::new(&AtomicBool::new(false))))
             .map_err(|stop| stop.raised(py))?;
         arguments::shaped(py, rows, course.samples, course.columns.len())
+    }
+
+    /// Moves the bodies to the static equilibrium with the held inputs, downhill from the present pose, without
+    /// velocities. Time, inputs and revolution counts are kept. Clears a failure.
+    ///
+    /// Raises:
+    ///     EquilibriumError: Nothing holds a body, or there are more than 200; nothing is changed then.
+    fn settle(&self, py: Python<'_>) -> PyResult<()> {
+        self.held(py)?.settle().map_err(raise(py))
+    }
+
+    /// Inverse dynamics: the inputs that give velocities the wanted accelerations in the present state, as
+    /// computed-torque control needs them. The plant does not change.
+    ///
+    /// Args:
+    ///     states: As for `linearise`: names of a position and its rate for each degree of freedom.
+    ///     accelerations: Name of a velocity among the states → its wanted acceleration [its unit/s].
+    ///     inputs: Names; default: all inputs. Of several solutions, the one with the least sum of squared changes
+    ///         in SI units is returned.
+    ///     perturb: As for `linearise`.
+    ///
+    /// Returns:
+    ///     Input name → value [its unit].
+    ///
+    /// Raises:
+    ///     LinearisationError: As `linearise`, or the inputs cannot give these accelerations.
+    ///     UnknownName: No state or input has this name.
+    #[pyo3(signature = (states, accelerations, inputs=None, *, perturb=1e-5))]
+    fn inverse_dynamics(
+        &self,
+        py: Python<'_>,
+        states: Vec<String>,
+        accelerations: Bound<'_, PyDict>,
+        inputs: Option<Vec<String>>,
+        perturb: f64,
+    ) -> PyResult<Py<PyDict>> {
+        let options = LinearOptions { states: Some(states), inputs, outputs: None, perturb };
+        let wanted: Vec<(String, f64)> = accelerations
+            .iter()
+            .map(|(name, rate)| Ok((name.extract()?, rate.extract()?)))
+            .collect::<PyResult<_>>()?;
+        let mut instance = self.held(py)?;
+        let instance: &mut Instance = &mut instance;
+        let found =
+            py.detach(move || instance.inverse_dynamics(&options, &wanted)).map_err(raise(py))?;
+        let values = PyDict::new(py);
+        for (name, value) in found {
+            values.set_item(name, value)?;
+        }
+        Ok(values.unbind())
     }
 
     /// The plant as a linear system near its present state, see `dbd.Linear`.

@@ -87,3 +87,39 @@ def test_states_that_are_not_the_slow_motions_are_refused() -> None:
     ]:
         with pytest.raises(dbd.LinearisationError, match=words):
             upright().linearise(states)
+
+
+def test_inverse_dynamics_give_the_wanted_acceleration() -> None:
+    plant = dbd.Plant("cart-pendulum")
+    plant.advance(400)
+    found = plant.inverse_dynamics(STATES, {"cart_velocity.x": 3.0})
+    assert list(found) == ["drive"]
+    start, before = plant["cart_velocity.x"], plant.time
+    plant["drive"] = found["drive"]
+    plant.advance_to("220ms")
+    assert (plant["cart_velocity.x"] - start) / (plant.time - before) == pytest.approx(3.0, rel=0.02)
+    with pytest.raises(dbd.LinearisationError, match="cannot give `cart_velocity.x`, `rate`"):
+        plant.inverse_dynamics(STATES, {"cart_velocity.x": 3.0, "rate": 0.0})
+    with pytest.raises(dbd.UnknownName, match="did you mean `rate`"):
+        plant.inverse_dynamics(STATES, {"rat": 0.0})
+
+
+def test_a_plant_settles() -> None:
+    plant = dbd.Plant("cart-pendulum")
+    plant.advance(400)
+    plant.settle()
+    assert plant.steps == 400
+    below = plant.state.position[1] - plant.state.position[0]
+    assert np.allclose(below, [0.0, -0.33, 0.0], atol=1e-4)
+    assert not plant.state.velocity.any()
+    text = '''name = "free"
+duration = 1.0
+gravity = [0, 0, -9.81]
+[[body]]
+name = "stone"
+mass = 1.0
+inertia = [0.1, 0.1, 0.1]
+position = [0, 0, 0]'''
+    free = dbd.Plant.from_text(text, step="1ms")
+    with pytest.raises(dbd.EquilibriumError, match="nothing holds"):
+        free.settle()

@@ -114,7 +114,7 @@ pub use readout::ReadoutInfo;
 pub use reduction::reduced;
 pub use runtime::{SceneModel, widen};
 pub use scene::{Scene, Settled, UnknownName};
-pub use settle::{Restless, relaxed};
+pub use settle::{Restless, relaxed, relaxed_state};
 pub use shortened::shortened;
 pub use solid::Solid;
 pub use text::is_name;

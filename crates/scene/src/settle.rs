@@ -123,25 +123,31 @@ pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, Sce
     })
 }
 
+/// A state of a model at rest in equilibrium with its inputs, reached downhill from a given one.
+///
+/// # Errors
+/// As [`relaxed`].
+pub fn relaxed_state(
+    names: &[String],
+    model: &SceneModel<F64>,
+    state: &State<SceneModel<F64>>,
+) -> Result<State<SceneModel<F64>>, Restless> {
+    let rest = searched(names, model, state, SPACE)?;
+    let mut state = state.clone();
+    for (body, pose) in state.bodies.iter_mut().zip(&rest.poses) {
+        (body.position, body.orientation) = (pose.position, pose.orientation);
+        (body.velocity, body.angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
+    }
+    Ok(state)
+}
+
 /// Moves the bodies of a scene without velocities to equilibrium.
 fn rest(scene: &mut Scene) -> Result<Settled, Restless> {
     let model = scene.stepped();
-    if model.bodies.len() > MAX_BODIES {
-        return Err(Restless::TooMany { bodies: model.bodies.len() });
-    }
-    let given: Vec<Pose> =
-        model.initial.iter().map(|state| Pose::new(state.position, state.orientation)).collect();
     let unknowns = if scene.planar.is_some() { PLANE } else { SPACE };
-    let mut search = Search::of(model, given.clone(), unknowns);
-    match search.run() {
-        End::AtRest => {}
-        End::Moving(row) => {
-            let body = scene.body_names[row].clone();
-            let [acceleration, angular] = search.acceleration(row).ok_or(Restless::Undefined)?;
-            return Err(Restless::NotHeld { body, acceleration, angular });
-        }
-        End::Undefined => return Err(Restless::Undefined),
-    }
+    let state = State::initial(model);
+    let given = poses(&state);
+    let mut search = searched(&scene.body_names, model, &state, unknowns)?;
     let [force, torque] = search.residual().ok_or(Restless::Undefined)?;
     let (poses, iterations) = (search.poses, search.steps);
     let mut moved = Vec::new();
@@ -161,6 +167,32 @@ fn rest(scene: &mut Scene) -> Result<Settled, Restless> {
         }
     }
     Ok(Settled { moved, iterations, force, torque })
+}
+
+/// The poses of a state.
+fn poses(state: &State<SceneModel<F64>>) -> Vec<Pose> {
+    state.bodies.iter().map(|body| Pose::new(body.position, body.orientation)).collect()
+}
+
+/// The search from a state to its end in equilibrium.
+fn searched<'m>(
+    names: &[String],
+    model: &'m SceneModel<F64>,
+    state: &State<SceneModel<F64>>,
+    unknowns: &'static [usize],
+) -> Result<Search<'m>, Restless> {
+    if model.bodies.len() > MAX_BODIES {
+        return Err(Restless::TooMany { bodies: model.bodies.len() });
+    }
+    let mut search = Search::of(model, state.clone(), unknowns);
+    match search.run() {
+        End::AtRest => Ok(search),
+        End::Moving(row) => {
+            let [acceleration, angular] = search.acceleration(row).ok_or(Restless::Undefined)?;
+            Err(Restless::NotHeld { body: names[row].clone(), acceleration, angular })
+        }
+        End::Undefined => Err(Restless::Undefined),
+    }
 }
 
 /// The result of a search.
@@ -183,14 +215,22 @@ struct Search<'m> {
 }
 
 impl<'m> Search<'m> {
-    fn of(model: &'m SceneModel<F64>, poses: Vec<Pose>, unknowns: &'static [usize]) -> Self {
+    fn of(
+        model: &'m SceneModel<F64>,
+        mut state: State<SceneModel<F64>>,
+        unknowns: &'static [usize],
+    ) -> Self {
+        let poses = poses(&state);
+        for body in &mut state.bodies {
+            (body.velocity, body.angular_velocity) = (Vec3::ZERO, Vec3::ZERO);
+        }
         // The largest distance of two bodies' centres, free length, or radius of gyration.
         let mut size = model.tsdas.iter().map(|tsda| tsda.free_length).fold(0.0_f64, f64::max);
         for (pose, body) in poses.iter().zip(&model.bodies) {
             let apart = pose.position - poses[0].position;
             size = size.max(length(apart)).max(libm::sqrt(largest_moment(body) / body.mass));
         }
-        Self { model, state: State::initial(model), poses, size, unknowns, steps: 0 }
+        Self { model, state, poses, size, unknowns, steps: 0 }
     }
 
     fn run(&mut self) -> End {

@@ -16,6 +16,7 @@ A run has the bits of `host-sim run` with the same scheme, precision and step.
 from ._dbd import CART_PENDULUM, SCENES, Plant, __version__, rollouts
 from ._errors import (
     BusyError,
+    EquilibriumError,
     Error,
     InputError,
     LinearisationError,
@@ -34,6 +35,7 @@ __all__ = [
     "CART_PENDULUM",
     "SCENES",
     "BusyError",
+    "EquilibriumError",
     "Error",
     "InputError",
     "Linear",

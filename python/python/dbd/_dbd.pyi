@@ -120,6 +120,8 @@ class Plant:
         angular_velocity: ArrayLike | None = None,
     ) -> None:
         """Sets the states of the bodies, shapes (bodies, 3), (bodies, 4), (bodies, 3), (bodies, 3)."""
+    def settle(self) -> None:
+        """Moves the bodies to the static equilibrium with the held inputs."""
     def save(self) -> bytes:
         """The state, inputs and set parameters included, as bytes."""
     def restore(self, saved: bytes) -> None:
@@ -147,6 +149,15 @@ class Plant:
         perturb: float = 1e-5,
     ) -> Linear:
         """The plant as a linear system near its present state."""
+    def inverse_dynamics(
+        self,
+        states: Sequence[str],
+        accelerations: dict[str, float],
+        inputs: Sequence[str] | None = None,
+        *,
+        perturb: float = 1e-5,
+    ) -> dict[str, float]:
+        """The inputs that give velocities the wanted accelerations."""
 
 class Film:
     """The samples of a plant for the page of its run."""

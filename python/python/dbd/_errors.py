@@ -37,6 +37,10 @@ class StateError(Error, ValueError):
     """Bytes or arrays are not a state of this plant, or the plant has failed and has no valid state."""
 
 
+class EquilibriumError(Error, ValueError):
+    """The plant has no static equilibrium near its state."""
+
+
 class LinearisationError(Error, ValueError):
     """The plant cannot be linearised in these states near its present state."""
 

@@ -4,7 +4,7 @@ use crate::time::display;
 use crate::{MethodError, PlanError, PlantError};
 use dbd_kernel::plant::InputError;
 use dbd_kernel::snapshot::SnapshotError;
-use dbd_scene::SceneError;
+use dbd_scene::{Restless, SceneError};
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -123,6 +123,10 @@ pub enum InstanceError {
         /// Remedy.
         remedy: &'static str,
     },
+    /// The scene has no equilibrium near the state.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Restless(#[from] Restless),
 }
 
 impl InstanceError {

@@ -99,9 +99,7 @@ impl Instance {
         let inputs: Vec<String> = inputs.clone().unwrap_or_else(all);
         let driven: Result<Vec<_>, _> = inputs.iter().map(|name| self.input(name)).collect();
         let driven = driven?;
-        let places = |names: &[String]| -> Result<Vec<usize>, InstanceError> {
-            names.iter().map(|name| self.output(name)).collect()
-        };
+        let places = |names: &[String]| self.places(names);
         let Some(states) = states.clone() else {
             let first = self.outputs().len() - self.readout_columns();
             let names = self.outputs()[first..].iter().map(|output| output.name.clone());
@@ -125,28 +123,14 @@ impl Instance {
         let outputs = outputs.clone().unwrap_or_else(|| states.clone());
         let [seen, shown] = [places(&states)?, places(&outputs)?];
         let mut probe = Probe::new(self)?;
-        let (count, whole) = (states.len(), probe.count());
-        let is_twice = |(row, name)| states[..row].contains(name);
-        if !(1..whole).contains(&count) || states.iter().enumerate().any(is_twice) {
-            return Err(InstanceError::Linearisation {
-                what: format!("cannot reduce a system of {whole} coordinates to {count} states"),
-                remedy: "name each output once, at least one and fewer than the coordinates",
-            });
-        }
+        let count = states.len();
+        check_states(&states, &probe)?;
         let settled = Settled::of(&mut probe, &driven, &[seen, shown].concat(), count, *perturb)?;
         let Settled { jacobians: Jacobians { rate, a, b, c, d }, slow, response } = settled;
         let Slow { basis, dual, slowest_left_out } = slow;
         let (seen, shown) = (c.rows(0, count), c.rows(count, outputs.len()));
         let see = seen * &basis;
-        let back = inverse(&see, &(seen.abs() * basis.abs())).ok_or_else(|| {
-            InstanceError::Linearisation {
-                what: format!(
-                    "the outputs {} do not distinguish the {count} slowest motions",
-                    states.join(", ")
-                ),
-                remedy: "give a position and its rate for each degree of freedom",
-            }
-        })?;
+        let back = read_back(&seen.into_owned(), &basis, &states)?;
         let shown_of_input = d.rows(count, outputs.len()) + shown * response;
         Ok(Linear {
             a: &see * (&dual * a * &basis) * &back,
@@ -159,6 +143,11 @@ impl Instance {
             outputs,
             slowest_left_out,
         })
+    }
+
+    /// The indices of outputs.
+    pub(super) fn places(&self, names: &[String]) -> Result<Vec<usize>, InstanceError> {
+        names.iter().map(|name| self.output(name)).collect()
     }
 
     /// How many of the outputs are columns of read-outs.
@@ -214,6 +203,37 @@ impl Settled {
         }
         Err(restless())
     }
+}
+
+/// Refuses states that are no reduction.
+pub(super) fn check_states(states: &[String], probe: &Probe) -> Result<(), InstanceError> {
+    let (count, whole) = (states.len(), probe.count());
+    let is_twice = |(row, name)| states[..row].contains(name);
+    if (1..whole).contains(&count) && !states.iter().enumerate().any(is_twice) {
+        return Ok(());
+    }
+    Err(InstanceError::Linearisation {
+        what: format!("cannot reduce a system of {whole} coordinates to {count} states"),
+        remedy: "name each output once, at least one and fewer than the coordinates",
+    })
+}
+
+/// The parts of a basis of the slowest motions for given values of the states, whose gradients are `seen`.
+pub(super) fn read_back(
+    seen: &DMatrix<f64>,
+    basis: &DMatrix<f64>,
+    states: &[String],
+) -> Result<DMatrix<f64>, InstanceError> {
+    inverse(&(seen * basis), &(seen.abs() * basis.abs())).ok_or_else(|| {
+        InstanceError::Linearisation {
+            what: format!(
+                "the outputs {} do not distinguish the {} slowest motions",
+                states.join(", "),
+                states.len()
+            ),
+            remedy: "give a position and its rate for each degree of freedom",
+        }
+    })
 }
 
 /// The inverse of a square matrix whose entries are sums of terms of the given magnitudes; `None` where it is

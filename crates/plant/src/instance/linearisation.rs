@@ -94,6 +94,18 @@ impl Probe {
         self.rates = self.state.bodies.iter().map(|body| body.angular_velocity).collect();
     }
 
+    /// The scene's plant in double precision and in space.
+    #[must_use]
+    pub fn instance(&self) -> &Instance {
+        &self.instance
+    }
+
+    /// The state that it is looked at in.
+    #[must_use]
+    pub fn state(&self) -> &Bodies {
+        &self.state
+    }
+
     /// Moves the state by the given displacement of each coordinate \[m, rad, m/s, rad/s\].
     pub fn shift(&mut self, by: &DVector<f64>) {
         for (coordinate, by) in by.iter().enumerate() {
@@ -125,6 +137,18 @@ impl Probe {
             (false, false) => body.angular_velocity = body.angular_velocity + axis * by,
         }
         state
+    }
+
+    /// ẋ \[m/s, rad/s, m/s², rad/s²\] here.
+    ///
+    /// # Errors
+    /// [`InstanceError::Linearisation`] where a force is undefined.
+    pub fn rates(&self) -> Result<DVector<f64>, InstanceError> {
+        let mut rate = self.rate(&self.state, None)?;
+        for (row, spin) in self.rates.iter().enumerate() {
+            rate[6 * row + 3..6 * row + 6].copy_from_slice(&spin.to_f64());
+        }
+        Ok(DVector::from_vec(finite(rate)?))
     }
 
     /// ẋ in a state with small rotations relative to that of the probe.
@@ -176,11 +200,8 @@ impl Probe {
         outputs: &[usize],
         probe: f64,
     ) -> Result<Jacobians, InstanceError> {
-        let (count, state) = (self.count(), self.state.clone());
-        let mut rate = self.rate(&state, None)?;
-        for (row, spin) in self.rates.iter().enumerate() {
-            rate[6 * row + 3..6 * row + 6].copy_from_slice(&spin.to_f64());
-        }
+        let count = self.count();
+        let rate = self.rates()?;
         let mut a = DMatrix::zeros(count, count);
         let mut c = DMatrix::zeros(outputs.len(), count);
         for column in 0..count {
@@ -196,7 +217,7 @@ impl Probe {
             }
         }
         let (b, d) = self.input_jacobians(inputs, outputs, probe)?;
-        Ok(Jacobians { rate: DVector::from_vec(finite(rate)?), a: finite(a)?, b, c: finite(c)?, d })
+        Ok(Jacobians { rate, a: finite(a)?, b, c: finite(c)?, d })
     }
 
     /// ∂ẋ/∂u and ∂y/∂u here, by differences as in [`Self::jacobians`].

@@ -57,9 +57,11 @@
 //! - [`linearisation`]: response to small changes of state and inputs.
 //! - [`spectrum`]: eigenvalues of a matrix and the subspace of its slowest motions.
 //! - [`linear`]: the plant as a linear system.
+//! - `inverse`: static equilibrium and inverse dynamics.
 
 pub mod blueprint;
 mod error;
+mod inverse;
 pub mod linear;
 pub mod linearisation;
 mod running;

@@ -159,7 +159,7 @@ impl Instance {
         found.ok_or_else(|| self.unknown("output", name, names()))
     }
 
-    fn unknown<'n>(
+    pub(crate) fn unknown<'n>(
         &self,
         kind: &'static str,
         name: &str,

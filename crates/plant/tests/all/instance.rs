@@ -1,7 +1,8 @@
 //! Instances against plain plants, and what they refuse.
 
+use dbd_kernel::Vec3;
 use dbd_plant::instance::linearisation::Probe;
-use dbd_plant::instance::{Blueprint, Instance, InstanceError, Settings};
+use dbd_plant::instance::{Blueprint, Instance, InstanceError, LinearOptions, Settings};
 use dbd_plant::{Method, plant};
 use dbd_scene::Scene;
 
@@ -219,4 +220,115 @@ axis = [0, 1, 0]
     // A turn about an axis changes with the rate about it, and by no force.
     near(a(3, 9), 1.0);
     near(a(9, 3), 0.0);
+}
+
+const STATES: [&str; 4] = ["cart_point.x", "angle", "cart_velocity.x", "rate"];
+
+fn names(of: &[&str]) -> Vec<String> {
+    of.iter().map(|&name| name.to_owned()).collect()
+}
+
+fn by_states() -> LinearOptions {
+    LinearOptions { states: Some(names(&STATES)), ..LinearOptions::default() }
+}
+
+#[test]
+fn inverse_dynamics_are_those_of_the_ideal_cart_and_pendulum() {
+    // M, m, l, I, friction and g of the scene; turned by φ about z from upright, turning with w.
+    let [cart_mass, mass, l, inertia, friction, g] = [0.94, 0.23, 0.33, 0.00788, 0.0024, 9.81];
+    let lean = 5_f64.to_radians();
+    for (turning, wanted) in [(0.0, 2.0), (3.0, -1.5)] {
+        let mut instance = cart();
+        let mut state = instance.plant().state();
+        state.bodies[1].velocity = Vec3::new(-l * lean.cos(), -l * lean.sin(), 0.0) * turning;
+        state.bodies[1].angular_velocity = Vec3::new(0.0, 0.0, turning);
+        instance.plant_mut().set_state(&state).unwrap();
+        instance.set_input(0, 4.0).unwrap();
+        let before = instance.hash();
+        let found =
+            instance.inverse_dynamics(&by_states(), &[("cart_velocity.x".into(), wanted)]).unwrap();
+        let moment = mass * l * lean.cos();
+        let turn = (moment * wanted + mass * g * l * lean.sin() - friction * turning)
+            / (inertia + mass * l * l);
+        let force =
+            (cart_mass + mass) * wanted - moment * turn + mass * l * lean.sin() * turning * turning;
+        assert_eq!(found[0].0, "drive");
+        assert!((found[0].1 - force).abs() < 2e-3 * force.abs(), "{found:?}, not {force}");
+        assert_eq!(instance.hash(), before);
+    }
+}
+
+#[test]
+fn accelerations_that_inputs_cannot_give_are_refused() {
+    let refused = |wanted: &[(&str, f64)], options: &LinearOptions| {
+        let wanted: Vec<_> = wanted.iter().map(|&(name, value)| (name.to_owned(), value)).collect();
+        cart().inverse_dynamics(options, &wanted).unwrap_err().sentence()
+    };
+    let said = refused(&[("cart_velocity.x", 1.0), ("rate", 1.0)], &by_states());
+    assert!(said.contains("drive cannot give `cart_velocity.x`, `rate` these"), "{said}");
+    assert!(refused(&[("angle", 1.0)], &by_states()).contains("`angle` is a position"));
+    assert!(refused(&[("rat", 1.0)], &by_states()).contains("did you mean `rate`?"));
+    assert!(refused(&[("rate", f64::NAN)], &by_states()).contains("cannot be NaN"));
+    let said = refused(&[("rate", 1.0)], &LinearOptions::default());
+    assert!(
+        said.contains("0 of the 0 states") && said.contains("a position and its rate"),
+        "{said}"
+    );
+    let uneven = LinearOptions { states: Some(names(&STATES[..3])), ..LinearOptions::default() };
+    assert!(refused(&[("cart_velocity.x", 1.0)], &uneven).contains("1 of the 3 states"));
+}
+
+#[test]
+fn a_plant_settles_under_its_present_inputs() {
+    let text = r#"
+        name = "hung"
+        duration = 1.0
+        step = "1 ms"
+        gravity = [0, -10, 0]
+        [[body]]
+        name = "weight"
+        mass = 2.0
+        inertia = [0.01, 0.01, 0.01]
+        position = [0, -1.0, 0]
+        [[tsda]]
+        between = ["world", "weight"]
+        points = [[0, 0, 0], [0, 0, 0]]
+        stiffness = 200.0
+        free_length = 0.9
+        [[input]]
+        name = "push"
+        type = "force"
+        body = "weight"
+        axis = [0, 1, 0]
+    "#;
+    let new = |text: &str| Instance::new(Blueprint::new("hung.toml", text), Settings::default());
+    let mut hung = new(text).unwrap();
+    hung.advance(100).unwrap();
+    hung.set_input(0, 4.0).unwrap();
+    hung.settle().unwrap();
+    let at = |name: &str| hung.value(hung.output(name).unwrap());
+    // 2 kg · 10 m/s² less 4 N on 200 N/m: 0.08 m below the end of the free spring.
+    assert!((at("weight.y") + 0.98).abs() < 1e-9, "{}", at("weight.y"));
+    assert_eq!([at("weight.vx"), at("weight.vy"), hung.time()], [0.0, 0.0, 0.1]);
+    hung.advance(500).unwrap();
+    assert!((hung.value(hung.output("weight.y").unwrap()) + 0.98).abs() < 1e-9);
+
+    let mut free = new(&text.replace("stiffness = 200.0", "stiffness = 0.0")).unwrap();
+    let before = free.hash();
+    let said = free.settle().unwrap_err().sentence();
+    assert!(said.contains("nothing holds `weight`") && said.contains("add a spring"), "{said}");
+    assert_eq!(free.hash(), before);
+}
+
+#[test]
+fn a_plane_s_plant_settles_too() {
+    for planar in ["planar=true", "planar=false"] {
+        let blueprint = Blueprint::load(path("cart-pendulum")).unwrap().with(planar);
+        let mut instance = Instance::new(blueprint, Settings::default()).unwrap();
+        instance.settle().unwrap();
+        let at = |name: &str| instance.value(instance.output(name).unwrap());
+        // The pendulum hangs below the cart, wherever that is.
+        let [x, y] = [at("pendulum.x") - at("cart.x"), at("pendulum.y") - at("cart.y")];
+        assert!(x.abs() < 1e-6 && (y + 0.33).abs() < 1e-4, "{planar}: {x} {y}");
+    }
 }
