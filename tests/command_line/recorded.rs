@@ -119,3 +119,74 @@ fn what_cannot_be_shown_is_refused() {
     let page = fs::read_to_string(folder.path("pendulum.html")).unwrap();
     assert!(data(&page)["runs"][0]["film"].is_null());
 }
+
+#[test]
+fn a_run_is_a_log_for_robots_tools() {
+    let folder = Folder::new();
+    let (golden, file) = (folder.path("pendulum.golden"), folder.path("pendulum.mcap"));
+    fs::write(&golden, recorded(SCENE)).unwrap();
+    let [golden, file] = [golden.to_str().unwrap(), file.to_str().unwrap()];
+    let done = call(&["report", golden, "--scene", SCENE, "--out", file]);
+    assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
+    let bytes = fs::read(file).unwrap();
+    let summary = mcap::Summary::read(&bytes).unwrap().unwrap();
+    let topics: Vec<_> = summary.channels.values().map(|channel| channel.topic.as_str()).collect();
+    for topic in ["/tf", "/scene", "/energy", "/sensors", "/inputs", "/bodies", "/controller"] {
+        assert!(topics.contains(&topic), "{topic} in {topics:?}");
+    }
+    let mut seen = std::collections::BTreeMap::new();
+    for message in mcap::MessageStream::new(&bytes).unwrap() {
+        let message = message.unwrap();
+        let (topic, schema) = (&message.channel.topic, message.channel.schema.as_ref().unwrap());
+        assert_eq!((&*message.channel.message_encoding, &*schema.encoding), ("json", "jsonschema"));
+        let value: Value = serde_json::from_slice(&message.data).unwrap();
+        let schema: Value = serde_json::from_slice(&schema.data).unwrap();
+        if !value.to_string().contains("null") {
+            jsonschema::validate(&schema, &value)
+                .unwrap_or_else(|error| panic!("{topic}: {error}"));
+        }
+        seen.entry(topic.clone()).or_insert_with(Vec::new).push((message.log_time, value));
+    }
+    let times: Vec<_> = seen["/sensors"].iter().map(|(time, _)| *time).collect();
+    assert_eq!((seen["/scene"].len(), seen["/tf"].len()), (1, times.len()));
+    assert_eq!(times[..2], [0, 10_000_000], "a sample every 20 steps of 0.5 ms");
+    // The values are those of the golden file.
+    let page = fs::read_to_string(golden).unwrap();
+    let last = &seen["/inputs"].last().unwrap().1["drive"];
+    let angle = &seen["/sensors"].last().unwrap().1["angle"];
+    for value in [last, angle] {
+        let text = format!("{:?}", value.as_f64().unwrap());
+        assert!(page.lines().last().unwrap().contains(&text) || page.contains(&text), "{text}");
+    }
+    let transforms = seen["/tf"][0].1["transforms"].as_array().unwrap();
+    let children: Vec<_> = transforms.iter().map(|one| &one["child_frame_id"]).collect();
+    assert_eq!(children, ["world", "cart", "pendulum"]);
+    // Gravity is along -y of the world, which is turned so that z of the root is up.
+    let turn = &transforms[0]["rotation"];
+    let half = 0.5_f64.sqrt();
+    let close = |name: &str, value: f64| (turn[name].as_f64().unwrap() - value).abs() < 1e-12;
+    assert!(close("x", half) && close("y", 0.0) && close("z", 0.0) && close("w", half), "{turn}");
+    let entities = seen["/scene"][0].1["entities"].as_array().unwrap();
+    assert_eq!(entities.len(), 3);
+    for entity in entities {
+        for part in entity["triangles"].as_array().unwrap() {
+            let points = part["points"].as_array().unwrap().len() as u64;
+            let indices = part["indices"].as_array().unwrap();
+            assert!(
+                !indices.is_empty() && indices.iter().all(|row| row.as_u64().unwrap() < points)
+            );
+        }
+    }
+
+    // An earlier one is replaced, other files are kept.
+    assert_eq!(call(&["report", golden, "--scene", SCENE, "--out", file]).exit, Exit::Done);
+    fs::write(file, "mine").unwrap();
+    let done = call(&["report", golden, "--scene", SCENE, "--out", file]);
+    assert_eq!(done.exit, Exit::Refused);
+    assert!(done.err.contains("is not an MCAP file"), "{}", done.err);
+    let unknown = folder.path("other.golden");
+    fs::write(&unknown, recorded("another")).unwrap();
+    let done = call(&["report", unknown.to_str().unwrap(), "--out", file]);
+    assert_eq!(done.exit, Exit::Refused);
+    assert!(done.err.contains("no MCAP file:"), "{}", done.err);
+}

@@ -68,7 +68,7 @@ pub fn host_sim() -> Result<PathBuf> {
     let (mut command, images) = for_older_linux("cargo-zigbuild")?;
     command.arg("build");
     run(bare(&mut command)
-        .args(["--locked", "--package", "host-sim", "--bin", "host-sim"])
+        .args(["--locked", "--package", "host-sim", "--bin", "host-sim", "--features", "mcap"])
         .args(["--target", &target()]))?;
     let program = images.join("host-sim");
     is_for_older_linux(&program)?;

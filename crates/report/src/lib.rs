@@ -15,6 +15,7 @@
 //! - [`recording`]: recording of a run.
 //! - [`page`]: the page.
 //! - [`gltf`]: the animation as a file for programs that show models.
+//! - `mcap` (feature): the run as a file for programs that show robots' logs.
 
 pub mod charts;
 pub mod curves;
@@ -22,6 +23,8 @@ pub mod data;
 pub mod film;
 pub mod gltf;
 pub mod loading;
+#[cfg(feature = "mcap")]
+pub mod mcap;
 pub mod measure;
 pub mod output;
 pub mod packed;

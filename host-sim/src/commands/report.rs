@@ -1,10 +1,11 @@
-//! `host-sim report`: the page of a recorded run, with its animation and its curves.
+//! `host-sim report`: the page of a recorded run, with its animation and its curves, or its log for Foxglove.
 //!
-//! `(recording, scene) => HTML`. The recording is a run's folder or a golden file: of `run`, of a test that steps a plant
+//! `(recording, scene) => HTML or MCAP`. The recording is a run's folder or a golden file: of `run`, of a test that steps a plant
 //! itself, or of firmware, also within a console's log.
 
-use std::io;
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use dbd_kernel::fingerprint::model_hash;
@@ -22,9 +23,13 @@ use crate::commands::compare::replay::{of_rows, of_scene};
 use crate::commands::compare::scene::{fits, scene as scene_of};
 use crate::commands::compare::words;
 use crate::commands::play::is_page;
-use crate::comparison::run::end_of;
+use crate::comparison::run::{End, end_of};
 use crate::recorded::{Head, Recorded, Unreadable};
 use crate::terminal::{Catalogue, LoadError};
+
+/// The ending of a file for Foxglove and PlotJuggler, and its first bytes.
+const MCAP: &str = "mcap";
+const MCAP_MAGIC: &[u8] = b"\x89MCAP0\r\n";
 
 /// The recording and its page.
 #[derive(Clone, Debug, Args)]
@@ -36,7 +41,8 @@ pub struct ReportArguments {
     /// The scene by name or path [default: that of the recording, where it is unchanged]
     #[arg(long, value_name = "SCENE", value_hint = ValueHint::FilePath)]
     pub scene: Option<String>,
-    /// Write the page to this file [default: the recording's file with the ending .html]
+    /// Write the page to this file; with the ending .mcap, the samples for Foxglove and PlotJuggler [default: the
+    /// recording's file with the ending .html]
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
 }
@@ -62,11 +68,26 @@ pub enum ReportError {
         bodies: String,
     },
     /// The file has other contents.
-    #[error("{} is not an HTML page", file.display())]
+    #[error("{} is not {what}", file.display())]
     #[diagnostic(help("choose another file with --out, or remove that one"))]
     Taken {
         /// The file.
         file: PathBuf,
+        /// What would be replaced.
+        what: &'static str,
+    },
+    /// This program writes no MCAP files.
+    #[error("this host-sim was built without MCAP files")]
+    #[diagnostic(help(
+        "build it with `cargo install host-sim --features mcap`, or write a page with the ending .html"
+    ))]
+    NoMcap,
+    /// An MCAP file needs the scene.
+    #[error("no MCAP file: {why}")]
+    #[diagnostic(help("give the recording's own scene with --scene"))]
+    NoScene {
+        /// Why there is no scene.
+        why: String,
     },
     /// The page cannot be written.
     #[error("cannot write {}: {reason}", file.display())]
@@ -101,6 +122,12 @@ pub fn report(catalogue: &Catalogue, arguments: &ReportArguments) -> Result<Writ
         None => scene_of(catalogue, &head),
     };
     let again = || Recorded::open(&arguments.run);
+    let file = arguments.out.clone().unwrap_or_else(|| head.file.with_extension("html"));
+    if file.extension().is_some_and(|ending| ending == MCAP) {
+        let scene = scene.map_err(|why| ReportError::NoScene { why })?;
+        let bytes = log(&scene, again()?, end)?.map_err(|why| ReportError::NoScene { why })?;
+        return written(file, &bytes, warnings);
+    }
     let shown = match &scene {
         Ok(scene) => of_scene(scene, again()?, end)?,
         Err(why) => Err(why.clone()),
@@ -127,15 +154,42 @@ pub fn report(catalogue: &Catalogue, arguments: &ReportArguments) -> Result<Writ
         commands: vec![(String::new(), command(arguments))],
         ..Text::default()
     };
-    let file = arguments.out.clone().unwrap_or_else(|| head.file.with_extension("html"));
+    written(file, html(&data).as_bytes(), warnings)
+}
+
+#[cfg(feature = "mcap")]
+fn log(scene: &Scene, run: Recorded, end: End) -> Result<Result<Vec<u8>, String>, ReportError> {
+    Ok(crate::commands::compare::replay::log_of_scene(scene, run, end)?)
+}
+
+#[cfg(not(feature = "mcap"))]
+fn log(_: &Scene, _: Recorded, _: End) -> Result<Result<Vec<u8>, String>, ReportError> {
+    Err(ReportError::NoMcap)
+}
+
+/// Writes a file that does not exist, is empty, or is of its kind.
+fn written(file: PathBuf, bytes: &[u8], warnings: Vec<String>) -> Result<Written, ReportError> {
+    let (what, is_own) = if bytes.starts_with(MCAP_MAGIC) {
+        ("an MCAP file", begins(&file, MCAP_MAGIC))
+    } else {
+        ("an HTML page", is_page(&file))
+    };
     // A device, which seems empty, is not replaced either.
-    if file.exists() && !(file.is_file() && is_page(&file)) {
-        return Err(ReportError::Taken { file });
+    if file.exists() && !(file.is_file() && is_own) {
+        return Err(ReportError::Taken { file, what });
     }
-    match write_at(&file, &html(&data)) {
+    match write_at(&file, bytes) {
         Ok(()) => Ok(Written { file, warnings }),
         Err(reason) => Err(ReportError::Write { file, reason }),
     }
+}
+
+/// Whether a file is empty or begins with the given bytes.
+fn begins(file: &Path, with: &[u8]) -> bool {
+    let mut bytes = Vec::new();
+    let read =
+        File::open(file).and_then(|file| file.take(with.len() as u64).read_to_end(&mut bytes));
+    read.is_ok() && (bytes.is_empty() || bytes == with)
 }
 
 /// The scene that was asked for, if it has the recording's bodies.

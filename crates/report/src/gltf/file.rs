@@ -20,6 +20,9 @@ pub(super) struct File {
     bytes: Vec<u8>,
     channels: Vec<Channel>,
     samplers: Vec<Sampler>,
+    /// sRGB, of each material.
+    #[cfg(feature = "mcap")]
+    colours: Vec<[u8; 3]>,
 }
 
 /// Target of a channel.
@@ -109,6 +112,8 @@ impl File {
             if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
         });
         let [red, green, blue] = linear;
+        #[cfg(feature = "mcap")]
+        self.colours.push(colour);
         self.root.push(Material {
             name: Some(name.into()),
             double_sided: true,
@@ -120,6 +125,12 @@ impl File {
             },
             ..Default::default()
         })
+    }
+
+    /// The colour of a material, sRGB.
+    #[cfg(feature = "mcap")]
+    pub(super) fn colour(&self, material: Index<Material>) -> [u8; 3] {
+        self.colours[material.value()]
     }
 
     /// A mesh of solids; `None` if there are none.

@@ -12,7 +12,7 @@ use crate::picture::Mechanism;
 use crate::picture::mechanism::Place;
 use dbd_kernel::{Quaternion, Vec3};
 use gltf::json::scene::UnitQuaternion;
-use gltf::json::{Index, Node};
+use gltf::json::{Index, Material, Node};
 
 use crate::film::Frame;
 use crate::measure::size;
@@ -34,8 +34,7 @@ pub fn glb(mechanism: &Mechanism, frames: &[Frame]) -> std::io::Result<Vec<u8>> 
     let mut file = File::default();
     let look = Look::new(&mut file, size(mechanism));
     let mut children = Vec::new();
-    let mut parts = marks::shapes(&mut file, &mechanism.ground, look.ground);
-    parts.push((marks::ground(mechanism, &look), look.ground));
+    let parts = ground_parts(&mut file, mechanism, &look);
     if let Some(mesh) = file.mesh("ground", &parts) {
         let node = Node { name: Some("ground".into()), mesh: Some(mesh), ..Node::default() };
         children.push(file.node(node));
@@ -89,15 +88,63 @@ fn shown(frames: &[Frame]) -> Vec<&Frame> {
     shown
 }
 
-fn bodies(file: &mut File, mechanism: &Mechanism, look: &Look, first: &Frame) -> Vec<Index<Node>> {
+/// Solids with their materials.
+type Parts = Vec<(Solids, Index<Material>)>;
+
+fn ground_parts(file: &mut File, mechanism: &Mechanism, look: &Look) -> Parts {
+    let mut parts = marks::shapes(file, &mechanism.ground, look.ground);
+    parts.push((marks::ground(mechanism, look), look.ground));
+    parts
+}
+
+/// Those of each body, in its axes.
+fn body_parts(file: &mut File, mechanism: &Mechanism, look: &Look) -> Vec<Parts> {
     let joints = marks::joints(mechanism, look);
-    let rows = mechanism.bodies.iter().zip(joints).zip(&first.poses).enumerate();
-    let nodes = rows.map(|(row, ((body, joints), (position, orientation)))| {
+    let rows = mechanism.bodies.iter().zip(joints).enumerate();
+    let parts = rows.map(|(row, (body, joints))| {
         let mut parts = marks::shapes(file, &body.shapes, look.body(row));
         if parts.is_empty() {
             parts.push((marks::outline(&body.outline, look), look.body(row)));
         }
         parts.push((joints, look.joint));
+        parts
+    });
+    parts.collect()
+}
+
+/// Triangles of one colour.
+#[cfg(feature = "mcap")]
+pub(crate) struct Surface {
+    /// \[m\].
+    pub(crate) positions: Vec<[f32; 3]>,
+    /// Rows of positions, three per triangle.
+    pub(crate) triangles: Vec<u32>,
+    /// sRGB.
+    pub(crate) colour: [u8; 3],
+}
+
+/// The surfaces of the ground, then of each body in its axes.
+#[cfg(feature = "mcap")]
+pub(crate) fn surfaces(mechanism: &Mechanism) -> Vec<Vec<Surface>> {
+    let mut file = File::default();
+    let look = Look::new(&mut file, size(mechanism));
+    let mut all = vec![ground_parts(&mut file, mechanism, &look)];
+    all.extend(body_parts(&mut file, mechanism, &look));
+    let surface = |(solids, material): (Solids, Index<Material>)| Surface {
+        positions: solids.positions,
+        triangles: solids.triangles,
+        colour: file.colour(material),
+    };
+    let shown = |parts: Parts| {
+        parts.into_iter().filter(|(solids, _)| !solids.triangles.is_empty()).map(surface).collect()
+    };
+    all.into_iter().map(shown).collect()
+}
+
+fn bodies(file: &mut File, mechanism: &Mechanism, look: &Look, first: &Frame) -> Vec<Index<Node>> {
+    let parts = body_parts(file, mechanism, look);
+    let rows = mechanism.bodies.iter().zip(parts).zip(&first.poses);
+    let nodes = rows.map(|((body, parts), (position, orientation))| {
         let mesh = file.mesh(&body.name, &parts);
         let rotation = rotations(std::iter::once(*orientation));
         file.node(Node {
@@ -178,10 +225,20 @@ fn between(from: Vec3<f64>, to: Vec3<f64>) -> [f64; 4] {
     [scalar, axis.x, axis.y, axis.z].map(|part| part / size)
 }
 
-/// The rotation from the up direction to y.
+/// The rotation from the up direction to y; none without gravity.
 fn upright(gravity: Option<[f64; 3]>) -> [f64; 4] {
-    let down = Vec3::from_f64(gravity.unwrap_or([0.0, -1.0, 0.0]));
-    let [w, x, y, z] = between(Vec3::new(0.0, 1.0, 0.0), -down);
+    raised(gravity, Vec3::new(0.0, 1.0, 0.0))
+}
+
+/// The rotation from the up direction to z, scalar first; none without gravity.
+#[cfg(feature = "mcap")]
+pub(crate) fn upright_z(gravity: Option<[f64; 3]>) -> [f64; 4] {
+    raised(gravity, Vec3::new(0.0, 0.0, 1.0))
+}
+
+fn raised(gravity: Option<[f64; 3]>, axis: Vec3<f64>) -> [f64; 4] {
+    let up = gravity.map_or(axis, |gravity| -Vec3::from_f64(gravity));
+    let [w, x, y, z] = between(axis, up);
     [w, -x, -y, -z]
 }
 

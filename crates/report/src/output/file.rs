@@ -168,9 +168,9 @@ impl io::Write for PendingFile {
 ///
 /// # Errors
 /// Where the folder cannot be written to.
-pub fn write(folder: &Path, name: &str, content: &str) -> io::Result<()> {
+pub fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> io::Result<()> {
     let mut file = PendingFile::create(folder, name)?;
-    file.write_all(content.as_bytes())?;
+    file.write_all(content.as_ref())?;
     file.complete()
 }
 
@@ -178,7 +178,7 @@ pub fn write(folder: &Path, name: &str, content: &str) -> io::Result<()> {
 ///
 /// # Errors
 /// Where the path names no file, or its folder cannot be written to.
-pub fn write_at(file: &Path, content: &str) -> io::Result<()> {
+pub fn write_at(file: &Path, content: impl AsRef<[u8]>) -> io::Result<()> {
     let name = file.file_name().and_then(|name| name.to_str());
     let name = name.ok_or_else(|| io::Error::other("not a valid file name"))?;
     let folder = file.parent().filter(|folder| *folder != Path::new(""));

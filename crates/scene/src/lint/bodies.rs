@@ -1,6 +1,7 @@
 //! Unconnected bodies, islands, plausibility of mass and inertia.
 
-use dbd_kernel::Vec3;
+use dbd_kernel::elements::input::InputKind;
+use dbd_kernel::{F64, Vec3};
 
 use crate::facts::Facts;
 use crate::interactions::{InteractionInfo, interactions};
@@ -31,22 +32,23 @@ pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     mass_ratio(scene, warnings);
     for island in &facts.islands {
         let first = island.bodies[0];
+        let is_flown = island.bodies.iter().any(|row| is_flown(scene, *row));
+        let falls = !scene.model.gravity.is_empty() && !is_flown;
         if island.elements == 0 {
-            let text = if scene.model.gravity.is_empty() {
-                "no element acts on it: it keeps its velocity"
-            } else {
-                "no element acts on it: it falls freely"
+            let (severity, text) = match is_flown {
+                true => (Severity::Note, "only forces of inputs act on it"),
+                false if falls => (Severity::Warning, "no element acts on it: it falls freely"),
+                false => (Severity::Warning, "no element acts on it: it keeps its velocity"),
             };
-            warnings.push(of_body(scene, first, Severity::Warning, text));
+            warnings.push(of_body(scene, first, severity, text));
         } else if !island.grounded {
-            let severity =
-                if scene.model.gravity.is_empty() { Severity::Note } else { Severity::Warning };
+            let severity = if falls { Severity::Warning } else { Severity::Note };
             let with = match island.bodies.len() {
                 1 => String::new(),
                 2 => " to 1 more body".into(),
                 bodies => format!(" to {} more bodies", bodies - 1),
             };
-            let falls = if scene.model.gravity.is_empty() { "" } else { " and falls" };
+            let falls = if falls { " and falls" } else { "" };
             let text = format!("is connected{with} but not to the world{falls}");
             warnings.push(of_body(scene, first, severity, &text));
         }
@@ -68,6 +70,14 @@ pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
             }
         }
     }
+}
+
+/// Whether a caller's force may carry a body, as a rotor's thrust does.
+fn is_flown(scene: &Scene, row: usize) -> bool {
+    let carries =
+        |kind: &InputKind<F64>| matches!(kind, InputKind::Force { body, .. } if body.row() == row);
+    let inputs = scene.model.inputs.iter().zip(&scene.inputs);
+    inputs.into_iter().any(|(input, info)| !info.table && carries(&input.kind))
 }
 
 fn of_body(scene: &Scene, row: usize, severity: Severity, text: &str) -> Warning {

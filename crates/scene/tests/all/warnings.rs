@@ -238,6 +238,12 @@ fn islands_and_spiders_have_their_place() {
     assert_eq!(warnings(&text), [(WARNING, format!("{says} and falls"))]);
     let free = text.replace("gravity = [0, 0, -9.81]", "gravity = [0, 0, 0]");
     assert_eq!(warnings(&free), [(NOTE, says.into())]);
+    // A rotor's thrust carries them, a force by a table of the scene does not.
+    let thrust =
+        "\n[[input]]\nname = \"thrust\"\ntype = \"force\"\nbody = \"hand\"\naxis = [0, 0, 1]\n";
+    assert_eq!(warnings(&(text.clone() + thrust)), [(NOTE, says.into())]);
+    let table = format!("{thrust}table = [[0, 0], [1, 5]]\n");
+    assert_eq!(warnings(&(text.clone() + &table)), [(WARNING, format!("{says} and falls"))]);
 
     let text = BASE.replace("type = \"fixed\"", "type = \"universal\"").replace(
         "axis = [1, 0, 0]\nstiffness = 1e4\nspan = 0.1\narm = 0.03",

@@ -11,6 +11,8 @@ use dbd_plant::{
     SchemeName, plant,
 };
 use dbd_report::data::{Run, Section};
+#[cfg(feature = "mcap")]
+use dbd_report::mcap::Log;
 use dbd_report::{Recording, Sample};
 use dbd_scene::{Scene, SceneModel};
 
@@ -27,14 +29,53 @@ pub fn of_scene(
     mut run: Recorded,
     end: End,
 ) -> Result<Result<Run, String>, Unreadable> {
-    let head = run.head.clone();
-    let method = method(&head).unwrap_or_default();
-    let plan = plan(&head, end);
-    let columns = Columns::of(scene, &head);
-    let (mut recording, mut plant) = match begun(scene, &method, &plan, &columns.others) {
+    let (method, plan) = (method(&run.head).unwrap_or_default(), plan(&run.head, end));
+    let columns = Columns::of(scene, &run.head);
+    let (mut recording, plant) = match begun(scene, &method, &plan, &columns.others) {
         Ok(begun) => begun,
         Err(why) => return Ok(Err(why.to_string())),
     };
+    replay(scene, plant, &columns, &mut run, |sample| recording.push(sample))?;
+    Ok(Ok(recording.finish().run))
+}
+
+/// The samples of a scene's run as an MCAP file, or why there is none.
+///
+/// # Errors
+/// As [`of_scene`].
+#[cfg(feature = "mcap")]
+pub fn log_of_scene(
+    scene: &Scene,
+    mut run: Recorded,
+    end: End,
+) -> Result<Result<Vec<u8>, String>, Unreadable> {
+    let (method, plan) = (method(&run.head).unwrap_or_default(), plan(&run.head, end));
+    let columns = Columns::of(scene, &run.head);
+    let plant = match plant(scene, &method, plan.step) {
+        Ok(plant) => plant,
+        Err(why) => return Ok(Err(why.to_string())),
+    };
+    let mut bytes = Vec::new();
+    let mut written = Log::new(std::io::Cursor::new(&mut bytes), scene, &columns.others);
+    replay(scene, plant, &columns, &mut run, |sample| {
+        if let Ok(log) = &mut written
+            && let Err(error) = log.push(sample)
+        {
+            written = Err(error);
+        }
+    })?;
+    let written = written.and_then(Log::finish);
+    Ok(written.map(|()| bytes).map_err(|error| error.to_string()))
+}
+
+/// Shows the samples of a run in order.
+fn replay(
+    scene: &Scene,
+    mut plant: Box<dyn AnyPlant>,
+    columns: &Columns,
+    run: &mut Recorded,
+    mut show: impl FnMut(&Sample<'_>),
+) -> Result<(), Unreadable> {
     let mut monitor = Monitor::new(scene, plant.as_ref());
     let initial = plant.state();
     let (mut readings, mut others) = (Vec::new(), Vec::new());
@@ -55,7 +96,7 @@ pub fn of_scene(
             (None, Err(_)) => Energy::default(),
         };
         columns.fill(row, &mut readings, &mut others);
-        recording.push(&Sample {
+        show(&Sample {
             time: row.time,
             state: &state,
             readings: &readings,
@@ -64,7 +105,7 @@ pub fn of_scene(
             others: &others,
         });
     }
-    Ok(Ok(recording.finish().run))
+    Ok(())
 }
 
 fn begun(

@@ -55,7 +55,7 @@ pub fn laws(arguments: &LawsArguments) -> Result<String, NewError> {
     place.write(TEMPLATES, values, Vec::new())?;
     Ok(format!(
         "{0}: two laws of one's own, `drag` and `cam`; {1}\n\n  cd {0}\n  cargo test    the laws keep what laws \
-         promise\n  cargo run --release -p {2}-sim -- run scenes/drop.toml    host-sim that knows them\n",
+         promise\n  cargo run -p {2}-sim -- run scenes/drop.toml    host-sim that knows them\n",
         place.folder.display(),
         dependencies.origin,
         place.name,
