@@ -1,6 +1,7 @@
 //! The cookbook: its commands are run in order, but for those of [`ELSEWHERE`], and the page shows what they print.
 
 use std::fs;
+use std::process::Command;
 
 use dbd_golden::Blessing;
 use dbd_plant::Method;
@@ -16,7 +17,7 @@ use crate::{Folder, call};
 const PAGE: &str = "docs/cookbook.md";
 
 /// What is shown of a task: its block, and the beginnings of the lines.
-const SHOWN: [(&str, &[&str]); 8] = [
+const SHOWN: [(&str, &[&str]); 9] = [
     ("motor", &["read-out  ", "engaged", "energy, balance"]),
     ("suspension", &["read-out                  `tyre", "tyre_force", "car_speed.z"]),
     ("crane", &["read-out                  `trolley_speed.x", "read-out                  `motor"]),
@@ -27,24 +28,30 @@ const SHOWN: [(&str, &[&str]); 8] = [
     ("balance", &["scene", "states", "inputs", "outputs"]),
     ("golden", &["golden"]),
     ("firmware", &["gate-"]),
+    (
+        "flight",
+        &["read-out                  `imu.az", "read-out                  `rope", "quadrotor: "],
+    ),
     ("fmu", &["pendulum.fmu"]),
 ];
 
 /// Pictures of the page, and their scenes.
-const PICTURES: [(&str, &str); 3] = [
+const PICTURES: [(&str, &str); 4] = [
     ("docs/pictures/gate-opener.svg", "docs/examples/gate-opener/gate-opener.toml"),
     ("docs/pictures/quarter-car.svg", "docs/examples/quarter-car/quarter-car.toml"),
     ("docs/pictures/crane.svg", "docs/examples/crane/crane.toml"),
+    ("docs/pictures/quadrotor.svg", "docs/examples/quadrotor/quadrotor.toml"),
 ];
 
 /// What commands write beside `out`.
-const FILES: [&str; 7] = [
+const FILES: [&str; 8] = [
     "four-bar.golden",
     "gate-c",
     "gate-rust",
     "out/quarter-car",
     "pendulum.fmu",
     "pendulum.json",
+    "quadrotor",
     "stiffer",
 ];
 
@@ -171,7 +178,7 @@ impl Reader {
 fn the_cookbook_does_what_it_says() {
     let reader = Reader(Folder::new());
     let tasks = tasks();
-    assert_eq!(tasks.len(), 12);
+    assert_eq!(tasks.len(), 13);
     let mut elsewhere = 0;
     for task in &tasks {
         assert!(!task.commands.is_empty(), "{task:?}");
@@ -206,4 +213,20 @@ fn the_cookbook_does_what_it_says() {
         dbd_tests::page::file(picture, &fs::read_to_string(&file).unwrap(), command);
         fs::remove_file(&file).unwrap();
     }
+}
+
+/// The page's C, by a compiler, against the header that the page's command writes.
+#[test]
+fn the_cookbook_s_c_compiles() {
+    let text = fs::read_to_string(path(PAGE)).unwrap();
+    let code = text.split("```c\n").nth(1).unwrap().split("```").next().unwrap();
+    let reader = Reader(Folder::new());
+    reader.run("host-sim new c quadrotor --scene docs/examples/quadrotor/quadrotor.toml");
+    fs::write(reader.0.path("module.c"), code).unwrap();
+    let done = Command::new("cc")
+        .args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only"])
+        .args(["-I", &reader.file("quadrotor/include"), &reader.file("module.c")])
+        .output()
+        .unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
 }

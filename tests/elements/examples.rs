@@ -77,3 +77,41 @@ fn a_wheel_leaves_the_plate_and_the_strut_meets_its_rubber() {
         assert!((weight + 372.0 * 9.81).abs() < 5.0, "{precision}: {weight} N");
     }
 }
+
+/// Attitude and height by proportional and differential feedback, as a flight controller has it.
+#[test]
+fn a_quadrotor_carries_its_load() {
+    for precision in ["f64", "f32"] {
+        let mut craft = instance(&example("quadrotor"), 1e-3, precision);
+        let input = |name: &str| craft.input(name).unwrap();
+        let [one, two, three, four] = ["thrust_1", "thrust_2", "thrust_3", "thrust_4"].map(input);
+        let mut swing: f64 = 0.0;
+        for _ in 0..6000 {
+            let of = |name: &str| value(&craft, name);
+            // Small angles: twice the vector part of the quaternion.
+            let tilt = |name: &str, rate: &str| -6.0 * 2.0 * of(name) - 1.2 * of(rate);
+            let [roll, pitch] =
+                [tilt("airframe.qx", "airframe.wx"), tilt("airframe.qy", "airframe.wy")];
+            // Down is positive.
+            let lift = 2.943 + 0.8 * of("airframe.z") + 1.0 * of("airframe.vz");
+            swing = swing.max((of("load.x") - of("airframe.x")).abs());
+            // Front right, rear left, front left, rear right.
+            for (rotor, thrust) in [
+                (one, lift - roll + pitch),
+                (two, lift + roll - pitch),
+                (three, lift + roll + pitch),
+                (four, lift - roll - pitch),
+            ] {
+                craft.set_input(rotor, thrust).unwrap();
+            }
+            craft.advance(1).unwrap();
+        }
+        let of = |name: &str| value(&craft, name);
+        assert!((0.09..0.15).contains(&swing), "{precision}: {swing}");
+        assert!(of("airframe.z").abs() < 0.02, "{precision}: {}", of("airframe.z"));
+        let tilt = of("airframe.qx").abs().max(of("airframe.qy").abs());
+        assert!(tilt < 0.02, "{precision}: {tilt}");
+        // The rope carries 200 g.
+        assert!((of("rope_force") - 1.96).abs() < 0.1, "{precision}: {}", of("rope_force"));
+    }
+}
