@@ -17,7 +17,7 @@ use crate::{Folder, call};
 const PAGE: &str = "docs/cookbook.md";
 
 /// What is shown of a task: its block, and the beginnings of the lines.
-const SHOWN: [(&str, &[&str]); 9] = [
+const SHOWN: [(&str, &[&str]); 10] = [
     ("motor", &["read-out  ", "engaged", "energy, balance"]),
     ("suspension", &["read-out                  `tyre", "tyre_force", "car_speed.z"]),
     ("crane", &["read-out                  `trolley_speed.x", "read-out                  `motor"]),
@@ -26,6 +26,16 @@ const SHOWN: [(&str, &[&str]); 9] = [
         &["read-out                  `right_grip.x", "read-out                  `left_grip.x"],
     ),
     ("balance", &["scene", "states", "inputs", "outputs"]),
+    (
+        "robot",
+        &[
+            "read-out                  `pitch`",
+            "engaged                   interaction `front",
+            "states",
+            "inputs",
+            "robot: ",
+        ],
+    ),
     ("golden", &["golden"]),
     ("firmware", &["gate-"]),
     (
@@ -36,15 +46,16 @@ const SHOWN: [(&str, &[&str]); 9] = [
 ];
 
 /// Pictures of the page, and their scenes.
-const PICTURES: [(&str, &str); 4] = [
+const PICTURES: [(&str, &str); 5] = [
     ("docs/pictures/gate-opener.svg", "docs/examples/gate-opener/gate-opener.toml"),
     ("docs/pictures/quarter-car.svg", "docs/examples/quarter-car/quarter-car.toml"),
     ("docs/pictures/crane.svg", "docs/examples/crane/crane.toml"),
     ("docs/pictures/quadrotor.svg", "docs/examples/quadrotor/quadrotor.toml"),
+    ("docs/pictures/balance-robot.svg", "docs/examples/balance-robot/balance-robot.toml"),
 ];
 
 /// What commands write beside `out`.
-const FILES: [&str; 8] = [
+const FILES: [&str; 9] = [
     "four-bar.golden",
     "gate-c",
     "gate-rust",
@@ -52,12 +63,14 @@ const FILES: [&str; 8] = [
     "pendulum.fmu",
     "pendulum.json",
     "quadrotor",
+    "robot",
     "stiffer",
 ];
 
 /// Commands that other tests run: of other programs, of two that meet, or that take long.
-const ELSEWHERE: [(&str, &str); 10] = [
+const ELSEWHERE: [(&str, &str); 11] = [
     ("cargo run --release --example balance", "tests/dynamics/controllers.rs"),
+    ("cargo run --release --example balance_robot", "tests/dynamics/controllers.rs"),
     ("python python/examples/identify.py", "python/tests/test_examples.py"),
     (
         "host-sim advise cart-pendulum --mcu cortex-m4f --clock 168MHz --rate 1kHz",
@@ -178,7 +191,7 @@ impl Reader {
 fn the_cookbook_does_what_it_says() {
     let reader = Reader(Folder::new());
     let tasks = tasks();
-    assert_eq!(tasks.len(), 13);
+    assert_eq!(tasks.len(), 14);
     let mut elsewhere = 0;
     for task in &tasks {
         assert!(!task.commands.is_empty(), "{task:?}");

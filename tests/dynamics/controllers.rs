@@ -3,6 +3,9 @@
 #[allow(dead_code, reason = "an example has a main function of its own")]
 #[path = "../../host-sim/examples/balance.rs"]
 pub mod balance;
+#[allow(dead_code, reason = "an example has a main function of its own")]
+#[path = "../../host-sim/examples/balance_robot.rs"]
+mod balance_robot;
 mod examples;
 #[allow(dead_code, reason = "an example has a main function of its own")]
 #[path = "../../host-sim/examples/follow.rs"]
@@ -19,12 +22,19 @@ use dbd_tests::scene;
 fn the_examples_do_what_they_say() {
     // Each asserts what it is about; the page says how well.
     let upright = the_pendulum_stays_up_for_a_minute();
+    let leant = the_robot_is_pushed_and_stays_up("f64").1;
     let furthest = the_delta_keeps_to_its_path();
     let rows = [
         vec![
             "`cargo run --release --example balance`".to_owned(),
             format!(
                 "state feedback holds the cart-pendulum upright for 60 s: from 5° to {upright:.0e} rad"
+            ),
+        ],
+        vec![
+            "`cargo run --release --example balance_robot`".to_owned(),
+            format!(
+                "state feedback keeps a robot on two wheels upright: a push of 5 N·s tilts it by {leant:.1}°"
             ),
         ],
         vec![
@@ -52,6 +62,37 @@ fn the_pendulum_stays_up_for_a_minute() -> f64 {
         assert!(*cart < 1e-3 && *angle < 1e-3, "{cart} {angle}");
     }
     seconds[59][1]
+}
+
+/// Lines `STEPS HASH` of the robot's run, as a project of `host-sim new firmware` shows them, and its largest pitch \[°\].
+fn the_robot_is_pushed_and_stays_up(precision: &str) -> (String, f64) {
+    let (mut lines, mut next, mut leant, mut late) = (String::new(), 1, 0.0_f64, 0.0_f64);
+    balance_robot::balance(precision, 10_000, |robot| {
+        let step = robot.plant().state().step;
+        if step == next || step == 10_000 {
+            lines += &format!("{step} {:016x}\n", robot.hash());
+            next *= 10;
+        }
+        let value = |name| robot.value(robot.output(name).unwrap());
+        let pitch = value("pitch").to_degrees().abs();
+        leant = leant.max(pitch);
+        if robot.time() > 5.0 {
+            late = late.max(pitch);
+            assert!(value("axle.x").abs() < 0.02, "{precision}: {} m", value("axle.x"));
+        }
+    })
+    .unwrap();
+    // The push is seen, the bumpers at 20° do not touch the floor, and rolling resistance leaves a fraction of a degree.
+    assert!(leant > 5.0 && leant < 20.0 && late < 0.5, "{precision}: {leant}° {late}°");
+    (lines, leant)
+}
+
+/// In single precision with the bits that the target has, too: `xtask/src/chip/project.rs`.
+#[test]
+fn the_robot_stays_up_in_single_precision() {
+    let (lines, _) = the_robot_is_pushed_and_stays_up("f32");
+    let command = "cargo test -p dbd-tests --test dynamics controllers";
+    dbd_tests::page::golden("docs/examples/balance-robot/golden.txt", &lines, command);
 }
 
 /// How far the tool is off at most \[m\].

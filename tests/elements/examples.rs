@@ -115,3 +115,19 @@ fn a_quadrotor_carries_its_load() {
         assert!((of("rope_force") - 1.96).abs() < 0.1, "{precision}: {}", of("rope_force"));
     }
 }
+
+/// A push tips it onto its front bumper, on which it comes to rest.
+#[test]
+fn a_robot_on_two_wheels_falls_without_its_controller() {
+    for precision in ["f64", "f32", "fixed"] {
+        let mut robot = instance(&example("balance-robot"), 1e-3, precision);
+        robot.advance_to(1.0).unwrap();
+        assert!(value(&robot, "pitch").abs() < 1e-3, "{precision}: not upright before the push");
+        robot.advance_to(10.0).unwrap();
+        let [pitch, rate] = ["pitch", "pitch_rate"].map(|name| value(&robot, name));
+        assert!(
+            (pitch.to_degrees() - 20.6).abs() < 0.5 && rate.abs() < 1e-3,
+            "{precision}: {pitch}"
+        );
+    }
+}

@@ -7,6 +7,7 @@ use dbd_plant::instance::{Blueprint, Instance, Linear, LinearOptions, Settings};
 use nalgebra::DMatrix;
 
 use crate::balance::GAINS;
+use crate::robot;
 
 /// Files that repeat the gains of the example.
 const FILES: [&str; 3] = [
@@ -31,8 +32,8 @@ fn upright(stiffer: f64) -> Linear {
     plant.linearise(&LinearOptions { states: Some(states), ..LinearOptions::default() }).unwrap()
 }
 
-/// The gains of the linear regulator for weights of the states and of the only input.
-fn regulator(linear: &Linear, states: &[f64], input: f64) -> Vec<f64> {
+/// The gains of the linear regulator for weights of the states and of each input: a row per input.
+fn regulator(linear: &Linear, states: &[f64], input: f64) -> DMatrix<f64> {
     let (a, b, count) = (&linear.a, &linear.b, states.len());
     let q = DMatrix::from_diagonal(&nalgebra::DVector::from_column_slice(states));
     let mut sign = DMatrix::zeros(2 * count, 2 * count);
@@ -49,7 +50,7 @@ fn regulator(linear: &Linear, states: &[f64], input: f64) -> Vec<f64> {
     let p = of_p.svd(true, true).solve(&-known, 1e-12).unwrap();
     let residual = a.transpose() * &p + &p * a - &p * b * b.transpose() * &p / input + q;
     assert!(residual.norm() < 1e-6 * p.norm(), "{residual}");
-    (b.transpose() * p / input).iter().copied().collect()
+    b.transpose() * p / input
 }
 
 #[test]
@@ -68,5 +69,29 @@ fn the_gains_of_the_balance_example_come_from_the_linear_system() {
     for file in FILES {
         let path = format!("{}/../{file}", env!("CARGO_MANIFEST_DIR"));
         assert!(std::fs::read_to_string(path).unwrap().contains(&written), "{file}: {written}");
+    }
+}
+
+/// The robot's come from its linear system as it stands, without rolling resistance, which is dry friction.
+#[test]
+fn the_gains_of_the_robot_come_from_the_linear_system() {
+    let file =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/examples/balance-robot/balance-robot.toml");
+    let scene =
+        ["left", "right"].into_iter().fold(Blueprint::load(file).unwrap(), |scene, side| {
+            scene.with(format!("interaction.{side}_tyre.rolling=0"))
+        });
+    let mut plant = Instance::new(scene, Settings::default()).unwrap();
+    plant.advance_to(0.2).unwrap();
+    let states = Some(robot::STATES.map(str::to_owned).to_vec());
+    let linear = plant.linearise(&LinearOptions { states, ..LinearOptions::default() }).unwrap();
+    assert_eq!(linear.inputs, robot::MOTORS);
+    let found = regulator(&linear, &[300.0, 5.0, 5.0, 10.0, 0.1, 0.1], 1.0);
+    // The right motor's gains are the left one's with left and right exchanged.
+    for (row, order) in [[0, 1, 2, 3, 4, 5], [0, 2, 1, 3, 5, 4]].into_iter().enumerate() {
+        let off = order.map(|column| found[(row, column)]).into_iter().zip(robot::GAINS);
+        for (found, gain) in off {
+            assert!((found - f64::from(gain)).abs() < 5e-3, "{found} {gain}");
+        }
     }
 }

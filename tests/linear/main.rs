@@ -4,6 +4,9 @@
 #[path = "../../host-sim/examples/balance.rs"]
 mod balance;
 mod gains;
+#[allow(dead_code, reason = "a controller of firmware")]
+#[path = "../../docs/examples/balance-robot/controller.rs"]
+mod robot;
 
 use dbd_kernel::{F64, Quaternion, State, Vec3};
 use dbd_plant::instance::{Blueprint, Instance, Linear, LinearOptions, Settings};

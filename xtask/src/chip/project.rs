@@ -1,4 +1,4 @@
-//! New projects of a scene, as their owner meets them: written, run in QEMU, tested on the PC.
+//! New projects of a scene, as their owner meets them: written, run in QEMU, tested on the PC; one with a controller.
 //!
 //! `host-sim new firmware => image, test`. It is built beside the firmware, with its compiler, its
 //! profile and its lock file, so that what both depend on is compiled once.
@@ -28,7 +28,9 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
     // Not below the repository, whose .cargo/config.toml cargo would add to the project's.
     let folder = std::env::temp_dir().join(format!("dbd-{NAME}-{}", std::process::id()));
     fs::create_dir_all(&folder)?;
-    let checked = written(&host_sim, &folder.join(NAME)).and_then(|project| {
+    let both = [written(&host_sim, &folder.join(NAME), SCENE), balanced(&host_sim, &folder)];
+    let checked = both.into_iter().try_for_each(|project| {
+        let project = project?;
         on_the_target(toolchain, &project)?;
         if here { on_the_pc(toolchain, &project) } else { Ok(()) }
     });
@@ -40,15 +42,41 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
 /// A mechanism with a drive, friction and stops: laws have their bits on the target, too.
 const SCENE: &str = "docs/examples/gate-opener/gate-opener.toml";
 
+/// A mechanism with its controller: a scene, two source files, and the golden bits of its run on the PC.
+const ROBOT: &str = "docs/examples/balance-robot";
+/// The function that the controller replaces, and its replacement.
+const CONTROL: [&str; 2] = [
+    "pub fn control(_plant: &mut BalanceRobotPlant) {}",
+    "mod control;\npub mod controller;\npub use control::control;",
+];
+
 /// A project in a folder, with the versions that the repository's lock file names.
-fn written(host_sim: &Path, project: &Path) -> Result<PathBuf> {
+fn written(host_sim: &Path, project: &Path, scene: &str) -> Result<PathBuf> {
     run(program(host_sim)
         .args(["new", "firmware"])
         .arg(project)
         .arg("--scene")
-        .arg(root().join(SCENE)))?;
+        .arg(root().join(scene)))?;
     fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock"))?;
     Ok(project.to_owned())
+}
+
+/// The project of the robot with its controller, as the cookbook says.
+fn balanced(host_sim: &Path, folder: &Path) -> Result<PathBuf> {
+    let scene = format!("{ROBOT}/balance-robot.toml");
+    let project = written(host_sim, &folder.join("balance-robot"), &scene)?;
+    let copy = |file: &str, to: &str| fs::copy(root().join(ROBOT).join(file), project.join(to));
+    copy("control.rs", "src/control.rs")?;
+    copy("controller.rs", "src/controller.rs")?;
+    copy("golden.txt", "tests/golden.txt")?;
+    let file = project.join("src/lib.rs");
+    let source = fs::read_to_string(&file)?;
+    let [function, instead] = CONTROL;
+    if !source.contains(function) {
+        bail!("{} does not have `{function}`", file.display());
+    }
+    fs::write(&file, source.replace(function, instead))?;
+    Ok(project)
 }
 
 fn on_the_target(toolchain: &Toolchain, project: &Path) -> Result<()> {
