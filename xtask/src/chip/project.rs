@@ -34,6 +34,15 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
         on_the_target(toolchain, &project)?;
         if here { on_the_pc(toolchain, &project) } else { Ok(()) }
     });
+    let checked = checked.and_then(|()| match of_the_notebook(&folder)? {
+        Some(project) => on_the_target(toolchain, &project),
+        None => {
+            println!(
+                "skipped the notebook's project: the tests of the Python package did not write it"
+            );
+            Ok(())
+        }
+    });
     let checked = checked.and_then(|()| c_project::check(toolchain, &folder, &host_sim, here));
     fs::remove_dir_all(&folder)?;
     checked
@@ -77,6 +86,19 @@ fn balanced(host_sim: &Path, folder: &Path) -> Result<PathBuf> {
     }
     fs::write(&file, source.replace(function, instead))?;
     Ok(project)
+}
+
+/// The project that the notebook of the Python package has written, with the golden bits of its run in Python; `None`
+/// where its test did not run.
+fn of_the_notebook(folder: &Path) -> Result<Option<PathBuf>> {
+    let written = root().join("target/python/notebook/chip");
+    if !written.is_dir() {
+        return Ok(None);
+    }
+    let project = folder.join("notebook");
+    run(program("cp").arg("-r").arg(&written).arg(&project))?;
+    fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock"))?;
+    Ok(Some(project))
 }
 
 fn on_the_target(toolchain: &Toolchain, project: &Path) -> Result<()> {

@@ -66,8 +66,7 @@ pub fn install(stranger: &Stranger) -> Result<()> {
     let host_sim = stranger.cargo_home().join("bin/host-sim");
     run(stranger.command(host_sim).args(["run", "four-bar", "--duration", "20ms", "--quiet"]))?;
     let found = hash_of(&stranger.work().join("out/four-bar/summary.json"))?;
-    println!("cargo install host-sim: four-bar after 20 ms has the hash {found}");
-    Ok(())
+    stranger.compare("cargo install host-sim", &found)
 }
 
 /// A firmware project that depends on the packages by version: its golden bits here and in QEMU.

@@ -1,11 +1,12 @@
 //! A machine that has never seen the repository: an empty folder, and only those variables that find compilers.
 
+use std::cell::RefCell;
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, bail};
 
 /// What finds compilers and the machine's temporary folder.
 const KEPT: [&str; 5] = ["PATH", "RUSTUP_HOME", "RUSTUP_TOOLCHAIN", "TMPDIR", "SSL_CERT_FILE"];
@@ -13,6 +14,8 @@ const KEPT: [&str; 5] = ["PATH", "RUSTUP_HOME", "RUSTUP_TOOLCHAIN", "TMPDIR", "S
 /// An empty folder of a stranger, removed in the end.
 pub struct Stranger {
     folder: PathBuf,
+    /// The first artefact that ran, and its hash.
+    first: RefCell<Option<(String, String)>>,
 }
 
 impl Stranger {
@@ -25,7 +28,21 @@ impl Stranger {
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(folder.join("work"))
             .with_context(|| format!("cannot create {}", folder.display()))?;
-        Ok(Self { folder })
+        Ok(Self { folder, first: RefCell::default() })
+    }
+
+    /// Holds an artefact's hash of `four-bar` after 20 ms to that of the first artefact.
+    ///
+    /// # Errors
+    /// Where they differ.
+    pub fn compare(&self, artefact: &str, hash: &str) -> Result<()> {
+        println!("{artefact}: four-bar after 20 ms has the hash {hash}");
+        let mut first = self.first.borrow_mut();
+        let (other, expected) = first.get_or_insert_with(|| (artefact.to_owned(), hash.to_owned()));
+        if hash != expected {
+            bail!("{artefact} has {hash}, {other} {expected}");
+        }
+        Ok(())
     }
 
     /// Where it works.
