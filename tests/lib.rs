@@ -195,7 +195,10 @@ mod tests {
             for opening in fences(page).iter().step_by(2) {
                 let known =
                     ["```python", "```rust", "```rust,no_run", "```sh", "```toml", "```text"];
-                assert!(known.contains(&opening.as_str()), "{page}: {opening}");
+                // The cookbook's C is compiled by its own test.
+                let is_known = known.contains(&opening.as_str())
+                    || page == "docs/cookbook.md" && opening == "```c";
+                assert!(is_known, "{page}: {opening}");
             }
         }
     }
