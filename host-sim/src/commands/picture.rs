@@ -67,7 +67,7 @@ pub fn write(scene: &Scene, file: &Path) -> Result<(), PictureError> {
     if file.exists() && !(file.is_file() && is_svg(file)) {
         return Err(PictureError::Taken { file: file.to_owned() });
     }
-    write_at(file, &picture(scene, Paper::File))
+    write_at(file, picture(scene, Paper::File))
         .map_err(|reason| PictureError::Write { file: file.to_owned(), reason })
 }
 

@@ -146,7 +146,7 @@ pub fn linearise(
         if file.exists() && !(file.is_file() && is_ours(file, format)) {
             return Err(LineariseError::Taken { file: file.to_owned() });
         }
-        let written = write_at(file, &format.text(&report));
+        let written = write_at(file, format.text(&report));
         written.map_err(|reason| LineariseError::Write { file: file.to_owned(), reason })?;
     }
     Ok(report)
