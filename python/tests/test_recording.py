@@ -36,6 +36,22 @@ def test_rows_are_those_of_a_rollout_and_inputs_as_they_were_held() -> None:
     assert recording.plant.hash == other.hash
 
 
+def test_rows_are_views_that_later_samples_do_not_change() -> None:
+    recording = driven([*SEEN, "drive"])
+    seen, copied = recording.rows, recording.rows.copy()
+    assert np.shares_memory(seen, recording.rows) and np.shares_memory(seen, recording["angle"])
+    with pytest.raises(ValueError, match="read-only"):
+        seen[0, 0] = 1.0
+    # The last row is replaced, further ones are added, some are dropped.
+    recording.plant["drive"] = 7.0
+    for _ in range(200):
+        recording.advance(1)
+    recording.plant.reset()
+    recording.advance(1)
+    assert np.array_equal(seen, copied) and len(recording) == 2
+    assert recording.rows[0, 0] == 0.0 and recording["drive"][0] == recording.plant["drive"]
+
+
 def test_all_columns_are_recorded_where_none_is_named() -> None:
     recording = driven()
     assert recording.columns == ["time", *recording.plant.outputs, "drive"]

@@ -56,7 +56,9 @@ class Recording:
         self.units = {"time": "s"} | {name: units[name] for name in self.columns[1:]}
         """Column to SI unit."""
         self._outputs = [name for name in self.columns[1:] if name in plant.outputs]
-        self._rows: list[list[float]] = []
+        # Rows with room for more, and how many of them views show: those are never written again.
+        self._room: NDArray[np.float64] = np.empty((64, len(self.columns)))
+        self._count = self._shown = 0
         self._film = Film(plant)
         self.sample()
 
@@ -66,9 +68,15 @@ class Recording:
         plant = self.plant
         seen = dict(zip(self._outputs, plant.read(self._outputs), strict=True)) if self._outputs else {}
         row = [plant.time] + [float(seen[name]) if name in seen else plant.get(name) for name in self.columns[1:]]
-        while self._rows and self._rows[-1][0] >= row[0]:
-            self._rows.pop()
-        self._rows.append(row)
+        earlier = self._count
+        while earlier and self._room[earlier - 1, 0] >= row[0]:
+            earlier -= 1
+        if earlier < self._shown or earlier == len(self._room):
+            room = np.empty((max(len(self._room), 2 * (earlier + 1)), len(self.columns)))
+            room[:earlier] = self._room[:earlier]
+            self._room, self._shown = room, 0
+        self._room[earlier] = row
+        self._count = earlier + 1
         self._film.sample(plant)
 
     def advance(self, steps: int) -> None:
@@ -83,11 +91,15 @@ class Recording:
 
     @property
     def rows(self) -> NDArray[np.float64]:
-        """Samples x columns, SI units: a copy."""
-        return np.array(self._rows)
+        """Samples x columns, SI units: a read-only view of the recorded samples, without a copy. It does not change when
+        further samples are taken."""
+        rows = self._room[: self._count]
+        self._shown = self._count
+        rows.flags.writeable = False
+        return rows
 
     def __len__(self) -> int:
-        return len(self._rows)
+        return self._count
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """A column by name, shape (samples,)."""
@@ -102,7 +114,7 @@ class Recording:
         with open(file, "w", newline="", encoding="utf-8") as out:
             writer = csv.writer(out, lineterminator="\n")
             writer.writerow(self.columns)
-            writer.writerows(["" if value != value else repr(value) for value in row] for row in self._rows)
+            writer.writerows(["" if value != value else repr(value) for value in row] for row in self.rows.tolist())
 
     def report(
         self,
