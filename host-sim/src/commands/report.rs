@@ -1,7 +1,7 @@
 //! `host-sim report`: the page of a recorded run, with its animation and its curves, or its log for Foxglove.
 //!
-//! `(recording, scene) => HTML or MCAP`. The recording is a run's folder or a golden file: of `run`, of a test that steps a plant
-//! itself, or of firmware, also within a console's log.
+//! `(recording, scene) => HTML or MCAP`. The recording is a run's folder or a golden file: of `run`, of a test that
+//! steps a plant itself, or of firmware, also within a console's log.
 
 use std::fs::File;
 use std::io::{self, Read as _};

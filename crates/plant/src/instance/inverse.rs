@@ -2,7 +2,6 @@
 //!
 //! `(instance, held inputs) => poses at rest; (instance, accelerations) => inputs`.
 
-use dbd_kernel::{BodyState, F64};
 use nalgebra::{DMatrix, DVector, SVD};
 
 use crate::instance::error::InstanceError;
@@ -28,9 +27,8 @@ impl Instance {
         let probe = Probe::new(self)?;
         let (scene, model) = (probe.instance().scene(), probe.instance().plant().model());
         let rest = dbd_scene::relaxed_state(&scene.body_names, model, probe.state())?;
-        let bodies: Vec<BodyState<F64>> = rest.bodies;
         let mut state = self.plant().state();
-        state.bodies.clone_from(&bodies);
+        state.bodies = rest.bodies;
         self.plant_mut().set_state(&state).map_err(|error| InstanceError::Linearisation {
             what: format!("the equilibrium cannot be set: {error}"),
             remedy: "use a scene in space, or double precision",
@@ -95,7 +93,7 @@ impl Instance {
     }
 }
 
-/// The least solution; `None` where there is none to be had.
+/// The solution of least norm, by singular values; `None` without a solution.
 fn solved(gain: &DMatrix<f64>, change: &DVector<f64>) -> Option<DVector<f64>> {
     if gain.is_empty() {
         return (gain.nrows() == 0).then(|| DVector::zeros(gain.ncols()));
@@ -168,7 +166,7 @@ impl Motion {
             let ahead = basis_at(&mut probe)?;
             move_by(&mut probe, -2.0 * time);
             let behind = basis_at(&mut probe)?;
-            move_by(&mut probe, time);
+            probe.follow(instance);
             (ahead - behind) * DVector::from_vec(values) / (2.0 * time)
         } else {
             DVector::zeros(half)
@@ -179,7 +177,6 @@ impl Motion {
             [body.mass, body.mass, body.mass, x, y, z]
         });
         let inertia = DVector::from_iterator(half, inertia);
-        probe.follow(instance);
         Ok(Self { probe, velocities, inertia, basis, curved })
     }
 

@@ -39,7 +39,7 @@ pub fn of_scene(
     Ok(Ok(recording.finish().run))
 }
 
-/// The samples of a scene's run as an MCAP file, or why there is none.
+/// The samples of a scene's run as an MCAP file, or the reason why it cannot be written.
 ///
 /// # Errors
 /// As [`of_scene`].
