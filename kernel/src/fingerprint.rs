@@ -269,6 +269,11 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
                 axis.visit(visitor);
             }
         }
+        InputKind::JointForce { a, b, point, axis } => {
+            integers(8, a.0, b.0);
+            point.visit(visitor);
+            axis.visit(visitor);
+        }
         InputKind::Actuator { group, element } => integers(5, *group, *element),
         InputKind::Signal => integers(7, 0, 0),
         InputKind::Anchor { direction } => {

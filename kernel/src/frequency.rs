@@ -44,7 +44,9 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
         let has_energy = match input.kind {
             InputKind::Actuator { .. } | InputKind::Anchor { .. } | InputKind::Signal => true,
             InputKind::Force { frame, .. } => frame == LoadFrame::World,
-            InputKind::Torque { .. } | InputKind::JointTorque { .. } => false,
+            InputKind::Torque { .. }
+            | InputKind::JointTorque { .. }
+            | InputKind::JointForce { .. } => false,
         };
         if !has_energy {
             *signal = Signal::default();

@@ -12,7 +12,7 @@ use crate::elements::source::Sensor;
 use crate::forces::{self, ExplicitDampers, ForcePair};
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex, LawIndex};
-use crate::laws::{Instant, Laws as _};
+use crate::laws::{self, Instant, Laws as _};
 use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, Terms};
 use crate::plant::Plant;
 use crate::pose::{End, Places, place_bodies, placed};
@@ -22,6 +22,28 @@ use crate::sensors::{Motion, motion};
 use crate::space::{Linear, Moment as _};
 use crate::state::State;
 use crate::vector::Vec3;
+
+/// A translation of one body along an axis of another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slide<P: Geometry> {
+    /// First body A and second body B.
+    pub bodies: [BodyIndex; 2],
+    /// A point of each, in its axes.
+    pub points: [P::Local; 2],
+    /// Unit axis, in A's axes.
+    pub axis: P::Vector,
+}
+
+impl<P: Geometry> Slide<P> {
+    /// The same translation in another precision.
+    pub fn convert<Q: Geometry>(&self) -> Slide<Q> {
+        Slide {
+            bodies: self.bodies,
+            points: self.points.map(|point| Q::local_from_f64(P::local_to_f64(&point))),
+            axis: Q::Vector::from_f64(self.axis.to_f64()),
+        }
+    }
+}
 
 /// The quantity that is read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +59,18 @@ pub enum Readout<P: Geometry> {
     JointRate {
         /// The spring's index among the torsion springs.
         spring: u16,
+    },
+    /// \[m\] the travel of a point of B from one of A along an axis of A.
+    JointTravel {
+        /// The translation.
+        slide: Slide<P>,
+        /// \[m\] the value at a travel of 0.
+        offset: P::Real,
+    },
+    /// \[m/s\] the rate of that travel.
+    JointTravelRate {
+        /// The translation.
+        slide: Slide<P>,
     },
     /// \[m\] the position of a point of a body, world.
     Point {
@@ -107,6 +141,13 @@ impl<P: Geometry> Readout<P> {
                 Readout::JointAngle { spring, offset: Q::Real::from_f64(offset.to_f64()) }
             }
             Readout::JointRate { spring } => Readout::JointRate { spring },
+            Readout::JointTravel { slide, offset } => Readout::JointTravel {
+                slide: slide.convert(),
+                offset: Q::Real::from_f64(offset.to_f64()),
+            },
+            Readout::JointTravelRate { slide } => {
+                Readout::JointTravelRate { slide: slide.convert() }
+            }
             Readout::Point { body, point } => Readout::Point { body, point: local(point) },
             Readout::PointVelocity { body, point } => {
                 Readout::PointVelocity { body, point: local(point) }
@@ -124,7 +165,7 @@ impl<P: Geometry> Readout<P> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub enum Reading<R> {
-    /// An angle, a rate, a tension or the value of an input.
+    /// An angle, a travel, a rate, a tension or the value of an input.
     Scalar(R),
     /// A position, a velocity or a force, world axes.
     Vector(Vec3<R>),
@@ -188,7 +229,16 @@ pub fn read<M: ModelOwner>(
             Motion::Vector(v) => Reading::Vector(v),
         });
     }
+    let at = Instant { frames: frames.as_ref(), bodies, signals: state.signals.as_ref() };
+    let travel = |slide: &Slide<M::Precision>| {
+        let seen = at.seen(slide.bodies)?;
+        Some(laws::travel(&seen, &slide.points, slide.axis))
+    };
     match *readout {
+        Readout::JointTravel { slide, offset } => {
+            Some(Reading::Scalar(travel(&slide)?[0] + offset))
+        }
+        Readout::JointTravelRate { slide } => Some(Reading::Scalar(travel(&slide)?[1])),
         Readout::TsdaForce { group, element } => {
             let row = group as usize;
             let group = view.groups.get(row)?;
@@ -221,7 +271,6 @@ pub fn read<M: ModelOwner>(
             Some(Reading::Scalar(signal.value))
         }
         Readout::Law { law, quantity } => {
-            let at = Instant { frames: frames.as_ref(), bodies, signals: state.signals.as_ref() };
             let mut reading = None;
             view.laws.look(law.0.into(), &state.laws, &mut |law| {
                 let known = usize::from(quantity) < law.quantities().len();

@@ -5,6 +5,7 @@ mod couplings;
 mod creep;
 mod drives;
 mod examples;
+mod slides;
 mod values;
 
 use dbd_plant::instance::{Blueprint, Instance, Settings};

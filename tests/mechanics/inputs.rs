@@ -42,11 +42,13 @@ fn a_force_at_a_point_pushes_and_turns() {
 }
 
 #[test]
-fn joint_torques_and_actuators_keep_the_momentum() {
+fn inputs_between_two_bodies_keep_the_momentum() {
     let mut model = free_ring::<F64>(0.0);
     let [a, b] = [BodyIndex(0), BodyIndex(1)];
     let axis = Vec3::new(0.0, 0.6, 0.8);
     let turn = model.add_input(InputKind::JointTorque { a, b, axes: [axis; 2] }, 3.0).unwrap();
+    let point = Vec3::new(0.1, -0.2, 0.3);
+    model.add_input(InputKind::JointForce { a, b, point, axis }, 5.0).unwrap();
     // Group 2 is the raw TSDA between the third body and the first.
     let pull = model.add_input(InputKind::Actuator { group: 2, element: 0 }, 0.0).unwrap();
     let masses: [_; 3] = std::array::from_fn(|i| {
@@ -337,6 +339,11 @@ fn a_direction_that_is_not_finite_is_refused() {
             (InputKind::Force { body, point: lost, direction: good, frame }, point),
             (InputKind::Torque { body, axis: lost, frame }, axis),
             (InputKind::JointTorque { a: BodyIndex::WORLD, b: body, axes: [good, lost] }, axis),
+            (InputKind::JointForce { a: BodyIndex::WORLD, b: body, point: good, axis: lost }, axis),
+            (
+                InputKind::JointForce { a: BodyIndex::WORLD, b: body, point: lost, axis: good },
+                point,
+            ),
             (InputKind::Anchor { direction: lost }, axis),
         ] {
             assert_eq!(model.add_input(kind, 1.0), Err(error));

@@ -77,6 +77,7 @@ fn everything() -> Bench<F64> {
     model.add_table(push, &steps, false).unwrap();
     model.add_input(InputKind::Torque { body: b, axis, frame: LoadFrame::World }, 0.4).unwrap();
     model.add_table(InputKind::JointTorque { a, b: c, axes: [axis; 2] }, &road, true).unwrap();
+    model.add_input(InputKind::JointForce { a: c, b, point, axis }, 2.5).unwrap();
     model.add_input(InputKind::Actuator { group: 2, element: 0 }, 3.0).unwrap();
     model.add_tsda([anchor, b], [[0.0, 1.0, 0.0], [0.1; 3]], 80.0, 1.5, 0.4).unwrap();
     model.add_tsda([a, anchor], [[0.1; 3], [0.5, 1.0, 0.0]], 60.0, 2.0, 0.0).unwrap();

@@ -129,6 +129,7 @@ fn input<R: Real + Named>(input: &Input<Float<R>>) -> InputShape {
         InputKind::Force { body, frame, .. } => (0, [body.0, 0], frame),
         InputKind::Torque { body, frame, .. } => (1, [body.0, 0], frame),
         InputKind::JointTorque { a, b, .. } => (2, [a.0, b.0], LoadFrame::Body),
+        InputKind::JointForce { a, b, .. } => (6, [a.0, b.0], LoadFrame::Body),
         InputKind::Actuator { group, element } => (3, [group, element], LoadFrame::World),
         InputKind::Anchor { .. } => (4, [0; 2], LoadFrame::World),
         InputKind::Signal => (5, [0; 2], LoadFrame::World),

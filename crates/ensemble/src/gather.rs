@@ -193,6 +193,7 @@ fn input<'m, V: Register>(
         InputKind::Force { point, direction, .. } => [point, direction],
         InputKind::Torque { axis, .. } => [axis; 2],
         InputKind::JointTorque { axes, .. } => axes,
+        InputKind::JointForce { point, axis, .. } => [point, axis],
         InputKind::Anchor { direction } => [direction; 2],
         InputKind::Actuator { .. } | InputKind::Signal => [Vec3::default(); 2],
     };
@@ -203,6 +204,7 @@ fn input<'m, V: Register>(
         }
         InputKind::Torque { body, frame, .. } => InputKind::Torque { body, axis, frame },
         InputKind::JointTorque { a, b, .. } => InputKind::JointTorque { a, b, axes: [point, axis] },
+        InputKind::JointForce { a, b, .. } => InputKind::JointForce { a, b, point, axis },
         InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
         InputKind::Signal => InputKind::Signal,
         InputKind::Anchor { .. } => InputKind::Anchor { direction: axis },

@@ -377,6 +377,26 @@ axis = [0, 1, 0]
 over = "speed.y"
 table = [[-1, 3], [1, -3]]
 interpolate = "linear"
+[[body]]
+name = "c"
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+position = [1, 0, 0]
+[[joint]]
+name = "guide"
+type = "translational"
+between = ["world", "c"]
+at = [1, 0, 0]
+axis = [1, 0, 0]
+span = 0.2
+gauge = 0.2
+offset = 0.05
+stiffness = 1000
+[[input]]
+name = "push"
+type = "joint_force"
+target = "guide"
+table = [[0, 2], [0.02, -3]]
 [[readout]]
 name = "turn"
 type = "joint_angle"

@@ -195,6 +195,15 @@ impl Budget {
                 InputKind::JointTorque { a, b, .. } => {
                     most * (speed(body(a))[1] + speed(body(b))[1]) * span
                 }
+                InputKind::JointForce { a, b, point, .. } => {
+                    let distance = |row: Option<usize>| {
+                        row.and_then(|row| self.distances.get(row)).copied().unwrap_or(0.0)
+                    };
+                    let ([v_a, w_a], [v_b, w_b]) = (speed(body(a)), speed(body(b)));
+                    // The lever arm on A is at most the distance of the centres and that of the point.
+                    let (arm, apart) = (length(point), distance(body(a)) + distance(body(b)));
+                    most * (v_a + w_a * (apart + arm) + v_b + w_b * arm) * span
+                }
                 InputKind::Actuator { group, .. } => {
                     let reach = self.reaches.get(usize::from(group));
                     reach.map_or(0.0, |reach| {

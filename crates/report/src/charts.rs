@@ -288,7 +288,8 @@ fn left_out(
 fn quantity(kind: &str, unit: &str) -> &'static str {
     match (kind, unit) {
         ("joint_angle", _) => "angle",
-        ("joint_rate", _) | ("imu", "rad/s") => "rate",
+        ("joint_rate" | "joint_travel_rate", _) | ("imu", "rad/s") => "rate",
+        ("joint_travel", _) => "travel",
         ("point", _) => "position",
         ("point_velocity", _) => "velocity",
         ("tsda_force", _) => "tension",

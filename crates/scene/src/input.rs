@@ -12,7 +12,8 @@ use crate::drive::{self, Drive, INPUT as KEYS};
 use crate::error::SceneError;
 use crate::hinge::Hinge;
 use crate::interaction::{self, Driven};
-use crate::known::{HINGE, Known, hinge};
+use crate::joints::JointPlace;
+use crate::known::{HINGE, Known, hinge, slide};
 use crate::names::Names;
 use crate::points::PlaceOf;
 use crate::target::{ElementName, Kinds, Target};
@@ -42,10 +43,11 @@ struct InputType {
     read: fn(&Table<'_>, &mut Known<'_>) -> Result<InputKind<F64>, SceneError>,
 }
 
-static TYPES: [InputType; 7] = [
+static TYPES: [InputType; 8] = [
     InputType { name: "force", unit: "N", keys: &["body", "point", "axis", "frame"], read: force },
     InputType { name: "torque", unit: "N·m", keys: &["body", "axis", "frame"], read: torque },
     InputType { name: "joint_torque", unit: "N·m", keys: HINGE, read: joint_torque },
+    InputType { name: "joint_force", unit: "N", keys: &["target"], read: joint_force },
     InputType { name: "actuator", unit: "N", keys: &["target"], read: actuator },
     InputType { name: "anchor", unit: "m", keys: &["target", "axis"], read: anchor },
     // Its unit is that of its mode.
@@ -158,6 +160,13 @@ fn joint_torque(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F6
     let Hinge { a, b, axis } = hinge(table, known)?;
     let in_b = known.assembly.vector_in(b, known.assembly.direction_w(a, axis));
     Ok(InputKind::JointTorque { a, b, axes: [axis, in_b] })
+}
+
+fn joint_force(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    let JointPlace { pair, at_w, axis_w, .. } = slide(table, known, "a joint_force")?;
+    let point = known.assembly.point_in(pair.b, *at_w);
+    let axis = known.assembly.vector_in(pair.a, *axis_w);
+    Ok(InputKind::JointForce { a: pair.a, b: pair.b, point, axis })
 }
 
 fn actuator(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {

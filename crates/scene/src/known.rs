@@ -61,6 +61,27 @@ pub(crate) fn freedom<'p>(
     Ok((place, turns))
 }
 
+/// The joint named by `target`, which must slide along an axis. `who` is the subject of the message: `a drive`.
+pub(crate) fn slide<'k>(
+    table: &Table<'_>,
+    known: &Known<'k>,
+    who: &str,
+) -> Result<&'k JointPlace, SceneError> {
+    let kinds = Kinds::JOINT;
+    let (name, target) =
+        table.required("target", ElementName { elements: known.elements, kinds })?;
+    let place = match target {
+        Target::Joint(row) => known.places.get(row),
+        _ => None,
+    };
+    place.filter(|place| matches!(place.kind, "translational" | "cylindrical")).ok_or_else(|| {
+        let kind = place.map_or("unknown", |place| place.kind);
+        let problem = format!("names the {kind} joint `{name}`, which does not slide");
+        let help = format!("{who} needs a translational or cylindrical joint");
+        table.refuse_value("target", &problem, help)
+    })
+}
+
 /// Reads `target`, a joint or a torsion spring, with the keys it requires: `axis` for a spherical joint, `about` for a
 /// universal one.
 pub(crate) fn hinge(table: &Table<'_>, known: &Known<'_>) -> Result<Hinge, SceneError> {

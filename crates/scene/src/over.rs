@@ -56,7 +56,7 @@ fn read(
     let Some(sensor) = info.readout.sensor() else {
         let problem = format!("names `{name}`, a read-out of type {}", info.kind);
         let help = "expected a joint_angle, joint_rate, point or point_velocity: read-outs of \
-            forces or inputs would form a cycle";
+            forces or inputs would form a cycle; for a travel use a column of a point";
         return Err(table.refuse_value("over", &problem, help));
     };
     let curve = curve(table, Argument { unit: unit_over, name: "reading" }, unit)?;

@@ -4,14 +4,15 @@
 //! torsion spring has the same axis, one without stiffness is added to count revolutions.
 
 use dbd_kernel::index::LawIndex;
-use dbd_kernel::readouts::Readout;
+use dbd_kernel::readouts::{Readout, Slide};
 use dbd_kernel::{F64, Geometry, Vec3};
 
 use crate::between::BodyName;
 use crate::columns::Taken;
 use crate::error::SceneError;
 use crate::input::InputInfo;
-use crate::known::{HINGE, Known, hinge};
+use crate::joints::JointPlace;
+use crate::known::{HINGE, Known, hinge, slide};
 use crate::names::Names;
 use crate::nearest::nearest;
 use crate::points::PlaceOf;
@@ -54,7 +55,7 @@ enum Columns {
     Law,
 }
 
-static TYPES: [ReadoutType; 9] = [
+static TYPES: [ReadoutType; 11] = [
     ReadoutType {
         name: "joint_angle",
         columns: Columns::Scalar("rad"),
@@ -69,6 +70,23 @@ static TYPES: [ReadoutType; 9] = [
         columns: Columns::Scalar("rad/s"),
         keys: HINGE,
         read: |table, known, _| Ok(Readout::JointRate { spring: spring(table, known)? }),
+    },
+    ReadoutType {
+        name: "joint_travel",
+        columns: Columns::Scalar("m"),
+        keys: &["target", "offset"],
+        read: |table, known, _| {
+            let offset = table.optional("offset", Number::any("m"))?.unwrap_or_default();
+            Ok(Readout::JointTravel { slide: travel(table, known, "a joint_travel")?, offset })
+        },
+    },
+    ReadoutType {
+        name: "joint_travel_rate",
+        columns: Columns::Scalar("m/s"),
+        keys: &["target"],
+        read: |table, known, _| {
+            Ok(Readout::JointTravelRate { slide: travel(table, known, "a joint_travel_rate")? })
+        },
     },
     ReadoutType {
         name: "point",
@@ -208,6 +226,14 @@ fn kind(table: &Table<'_>) -> Result<&'static ReadoutType, SceneError> {
 fn spring(table: &Table<'_>, known: &mut Known<'_>) -> Result<u16, SceneError> {
     let hinge = hinge(table, known)?;
     known.assembly.carrier(&hinge).map_err(|defect| defect.refuse(table))
+}
+
+/// The translation of the joint `target`: that of its laws.
+fn travel(table: &Table<'_>, known: &Known<'_>, who: &str) -> Result<Slide<F64>, SceneError> {
+    let JointPlace { pair, at_w, axis_w, .. } = slide(table, known, who)?;
+    let bodies = [pair.a, pair.b];
+    let points = bodies.map(|body| known.assembly.point_in(body, *at_w));
+    Ok(Slide { bodies, points, axis: known.assembly.vector_in(pair.a, *axis_w) })
 }
 
 fn point(

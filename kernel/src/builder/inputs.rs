@@ -51,7 +51,9 @@ impl<
                     return Err(BuildError::UnknownBody(*body));
                 }
             }
-            InputKind::JointTorque { a, b, .. } => self.check_pair([*a, *b])?,
+            InputKind::JointTorque { a, b, .. } | InputKind::JointForce { a, b, .. } => {
+                self.check_pair([*a, *b])?;
+            }
             InputKind::Actuator { group, element } => {
                 let known = self.groups.get(*group as usize);
                 let there = known.is_some_and(|g| (*element as usize) < g.elements());
@@ -65,6 +67,10 @@ impl<
                 check(direction.is_finite(), Quantity::Axis)?;
             }
             InputKind::Torque { axis, .. } => check(axis.is_finite(), Quantity::Axis)?,
+            InputKind::JointForce { point, axis, .. } => {
+                check(finite(&P::local_to_f64(point)), Quantity::Point)?;
+                check(axis.is_finite(), Quantity::Axis)?;
+            }
             InputKind::JointTorque { axes, .. } => {
                 check(axes.iter().all(|axis| axis.is_finite()), Quantity::Axis)?;
             }

@@ -43,6 +43,18 @@ pub enum InputKind<P: Geometry> {
         /// Unit axis at t = 0, in A's and in B's axes.
         axes: [P::Moment; 2],
     },
+    /// A force \[N\] on B at one of its points along an axis of A, on A the opposite along the same line. Its power is
+    /// the force times the rate of the point's travel along that axis.
+    JointForce {
+        /// First body.
+        a: BodyIndex,
+        /// Second body.
+        b: BodyIndex,
+        /// The point of B, in its axes.
+        point: P::Local,
+        /// Unit axis, in A's axes.
+        axis: P::Vector,
+    },
     /// A tension \[N\] along a TSDA in addition to its spring's: an actuator.
     Actuator {
         /// The TSDA's group.
@@ -113,6 +125,10 @@ impl<P: Geometry> Input<P> {
             }
             InputKind::JointTorque { a, b, axes } => {
                 InputKind::JointTorque { a, b, axes: axes.map(moment) }
+            }
+            InputKind::JointForce { a, b, point, axis } => {
+                let point = Q::local_from_f64(P::local_to_f64(&point));
+                InputKind::JointForce { a, b, point, axis: vector(axis) }
             }
             InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
             InputKind::Signal => InputKind::Signal,

@@ -26,7 +26,7 @@ fn bodies_of<P: Geometry, T: Terms<P>>(
     let world = BodyIndex::WORLD;
     match *kind {
         InputKind::Force { body, .. } | InputKind::Torque { body, .. } => [body, world],
-        InputKind::JointTorque { a, b, .. } => [a, b],
+        InputKind::JointTorque { a, b, .. } | InputKind::JointForce { a, b, .. } => [a, b],
         InputKind::Actuator { group, .. } => {
             model.groups.get(group as usize).map_or([world; 2], |group| [group.a, group.b])
         }
@@ -124,6 +124,12 @@ pub(crate) fn push<P: Geometry, T: Terms<P>>(
                     ForcePair { force: P::Vector::ZERO, torque_a: torque, torque_b: torque };
                 add(places, wrenches, bodies, &force_pair);
             }
+            InputKind::JointForce { a, b, point, axis } => {
+                let force = -(turned(a, LoadFrame::Body, axis) * value);
+                let arms = common_point(model, places, [a, b], &point);
+                let [torque_a, torque_b] = arms.map(|arm| arm.cross(force));
+                add(places, wrenches, bodies, &ForcePair { force, torque_a, torque_b });
+            }
             InputKind::Actuator { .. } => {
                 if let Some(force_pair) = actuator(model, places, input.kind, value) {
                     add(places, wrenches, bodies, &force_pair);
@@ -132,6 +138,19 @@ pub(crate) fn push<P: Geometry, T: Terms<P>>(
             InputKind::Signal | InputKind::Anchor { .. } => {}
         }
     }
+}
+
+/// \[m\] the lever arms of a point of B from the centres of mass of A, unused for the ground, and of B, world.
+#[inline(always)]
+fn common_point<P: Geometry, T: Terms<P>>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    [a, b]: [BodyIndex; 2],
+    point: &P::Local,
+) -> [P::Vector; 2] {
+    let centre = End::new(model, places, a, None).place(&P::local_from_f64([0.0; 3])).0;
+    let (at, arm) = End::new(model, places, b, None).place(point);
+    [P::displacement(&centre, &at), arm]
 }
 
 /// The forces of an actuator of tension `value` \[N\] on the two bodies of its TSDA.

@@ -11,6 +11,17 @@ use crate::laws::interaction::Springs;
 use crate::real::Real;
 use crate::space::Linear as _;
 
+/// \[m, m/s\] the travel of B's point from A's along an axis of A, and its rate.
+#[inline(always)]
+pub(crate) fn travel<P: Geometry>(
+    seen: &Seen<'_, P>,
+    points: &[P::Local; 2],
+    axis: P::Vector,
+) -> [P::Real; 2] {
+    let travel = Coordinate::travel(seen, points, axis);
+    [travel.value, seen.rate(&travel.direction(seen))]
+}
+
 /// A coordinate at a pose.
 pub(super) struct Coordinate<P: Geometry> {
     /// \[m, rad\]

@@ -49,6 +49,7 @@ mod tabled;
 mod term;
 
 pub use branch::{Branch, MAX_BRANCHES};
+pub(crate) use coordinate::travel;
 pub use coupling::{Coupling, Sum};
 pub use curve::Curve;
 pub use distance_damper::DistanceDamper;

@@ -199,7 +199,9 @@ impl<
                 InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
                     assert!(body.row() < BODIES, "the body of an input does not exist");
                 }
-                InputKind::JointTorque { a, b, .. } => check_pair(*a, *b, BODIES),
+                InputKind::JointTorque { a, b, .. } | InputKind::JointForce { a, b, .. } => {
+                    check_pair(*a, *b, BODIES);
+                }
                 InputKind::Actuator { group, element } => {
                     assert!((*group as usize) < GROUPS, "the group of an actuator does not exist");
                     let elements = self.groups[*group as usize].elements();

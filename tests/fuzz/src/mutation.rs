@@ -116,6 +116,8 @@ const WORDS: &[&str] = &[
     "\"held\"",
     "\"outward\"",
     "\"joint_torque\"",
+    "\"joint_force\"",
+    "\"joint_travel\"",
     "\"actuator\"",
     "\"anchor\"",
     "\"joint_angle\"",

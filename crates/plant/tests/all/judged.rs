@@ -71,6 +71,9 @@ fn every_drive_gives_energy() {
     let joint = "[[joint]]\nname = \"j\"\nbetween = [\"world\", \"b\"]\nat = [0, 0, 0]\n";
     let revolute =
         format!("{joint}type = \"revolute\"\naxis = [0, 0, 1]\nspan = 0.1\nstiffness = 1e4\n");
+    let slide = format!(
+        "{joint}type = \"translational\"\naxis = [0, 1, 0]\nspan = 0.1\ngauge = 0.1\noffset = 0.02\nstiffness = 1e4\n"
+    );
     let ball = format!("{joint}type = \"spherical\"\narm = 0.1\nstiffness = 1e4\n");
     let tsda = "[[tsda]]\nname = \"t\"\nbetween = [\"world\", \"b\"]\nstiffness = 1e-3\n\
                 free_length = 1\npoints = [[1, 0, 0], [0, 0, 0]]\n";
@@ -86,6 +89,7 @@ fn every_drive_gives_energy() {
         ),
         format!("{input}type = \"torque\"\nbody = \"b\"\naxis = [0, 1, 0]\n{steady}"),
         format!("{revolute}{input}type = \"joint_torque\"\ntarget = \"j\"\n{steady}"),
+        format!("{slide}{input}type = \"joint_force\"\ntarget = \"j\"\n{pulse}"),
         format!("{tsda}{input}type = \"actuator\"\ntarget = \"t\"\nvalue = -20\n"),
         format!("{ball}{input}type = \"anchor\"\ntarget = \"j\"\naxis = [0, 1, 0]\n{jumps}"),
         format!("{ball}{input}type = \"anchor\"\ntarget = \"j\"\naxis = [0, 1, 0]\n{ramp}"),

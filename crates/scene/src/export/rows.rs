@@ -7,7 +7,7 @@ use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
 use dbd_kernel::index::{BodyIndex, DamperIndex};
 use dbd_kernel::model::Group;
-use dbd_kernel::readouts::Readout;
+use dbd_kernel::readouts::{Readout, Slide};
 use dbd_kernel::{
     BodyState, Load, LoadFrame, PointBushing, PointOnLine, Revolute, TorsionSpring, Tsda, Universal,
 };
@@ -128,6 +128,13 @@ pub(super) fn input<P: SourceGeometry>(input: &Input<P>) -> String {
             P::moment(in_a),
             P::moment(in_b),
         ),
+        InputKind::JointForce { a, b, point, axis } => format!(
+            "JointForce {{ a: {}, b: {}, point: {}, axis: {} }}",
+            index(*a),
+            index(*b),
+            P::local(point),
+            P::vector(axis),
+        ),
         InputKind::Actuator { group, element } => {
             format!("Actuator {{ group: {group}, element: {element} }}")
         }
@@ -147,11 +154,27 @@ pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {
     let at = |kind: &str, body: BodyIndex, point: &P::Local| {
         format!("{kind} {{ body: {}, point: {} }}", index(body), P::local(point))
     };
+    let slide = |Slide { bodies: [a, b], points: [at_a, at_b], axis }: &Slide<P>| {
+        format!(
+            "dbd_kernel::readouts::Slide {{ bodies: [{}, {}], points: [{}, {}], axis: {} }}",
+            index(*a),
+            index(*b),
+            P::local(at_a),
+            P::local(at_b),
+            P::vector(axis),
+        )
+    };
     let kind = match readout {
         Readout::JointAngle { spring, offset } => {
             format!("JointAngle {{ spring: {spring}, offset: {} }}", offset.number())
         }
         Readout::JointRate { spring } => format!("JointRate {{ spring: {spring} }}"),
+        Readout::JointTravel { slide: of, offset } => {
+            format!("JointTravel {{ slide: {}, offset: {} }}", slide(of), offset.number())
+        }
+        Readout::JointTravelRate { slide: of } => {
+            format!("JointTravelRate {{ slide: {} }}", slide(of))
+        }
         Readout::Point { body, point } => at("Point", *body, point),
         Readout::PointVelocity { body, point } => at("PointVelocity", *body, point),
         Readout::TsdaForce { group, element } => {

@@ -212,7 +212,7 @@ impl<'j> Driven<'j> {
                     } else {
                         "kg, or in kg·m² with a `ratio` in rad/m"
                     },
-                    if self.turns { "joint_torque" } else { "force" },
+                    if self.turns { "joint_torque" } else { "joint_force" },
                 );
                 return Err(table.missing("rotor", &help));
             }

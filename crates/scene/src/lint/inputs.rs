@@ -84,7 +84,12 @@ fn sources(scene: &Scene, warnings: &mut Vec<Warning>) {
 /// Degrees of freedom without drive or spring in a scene whose joints or springs are driven.
 fn undriven(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let is_drive = |kind: &InputKind<_>| {
-        matches!(kind, InputKind::JointTorque { .. } | InputKind::Actuator { .. })
+        matches!(
+            kind,
+            InputKind::JointTorque { .. }
+                | InputKind::JointForce { .. }
+                | InputKind::Actuator { .. }
+        )
     };
     let Some(first) = scene.model.inputs.iter().position(|input| is_drive(&input.kind)) else {
         return;

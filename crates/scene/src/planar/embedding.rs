@@ -7,7 +7,7 @@
 use dbd_kernel::elements::input::{Input, InputKind};
 use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
 use dbd_kernel::model::Law;
-use dbd_kernel::readouts::{Reading, Readout};
+use dbd_kernel::readouts::{Reading, Readout, Slide};
 use dbd_kernel::{
     Body, BodyIndex, BodyState, F64, Load, LoadFrame, PointOnLine, TorsionSpring, Vec3,
 };
@@ -64,12 +64,24 @@ impl Planar {
             let point = self.plane.point_inward(body.row(), point);
             Vec3::new(point.x, point.y, 0.0)
         };
+        let slide_in = |slide: Slide<F64>| {
+            let ([a, b], [at_a, at_b]) = (slide.bodies, slide.points);
+            let axis = self.plane.of_body_inward(a.row(), slide.axis);
+            let axis = Vec3::new(axis.x, axis.y, 0.0);
+            Slide { points: [flat(a, at_a), flat(b, at_b)], axis, ..slide }
+        };
         match *readout {
             Readout::Point { body, point } => Readout::Point { body, point: flat(body, point) },
             Readout::PointVelocity { body, point } => {
                 Readout::PointVelocity { body, point: flat(body, point) }
             }
             Readout::Imu { body, point } => Readout::Imu { body, point: flat(body, point) },
+            Readout::JointTravel { slide, offset } => {
+                Readout::JointTravel { slide: slide_in(slide), offset }
+            }
+            Readout::JointTravelRate { slide } => {
+                Readout::JointTravelRate { slide: slide_in(slide) }
+            }
             other => other,
         }
     }
@@ -178,6 +190,12 @@ impl Planar {
                 let outward = |body: BodyIndex, axis| self.plane.of_body_outward(body.row(), axis);
                 InputKind::JointTorque { a, b, axes: [outward(a, in_a), outward(b, in_b)] }
             }
+            InputKind::JointForce { a, b, point, axis } => InputKind::JointForce {
+                a,
+                b,
+                point: self.point_outward(b, point),
+                axis: self.outward(a, LoadFrame::Body, axis),
+            },
             InputKind::Actuator { .. } | InputKind::Signal => kind,
             InputKind::Anchor { direction } => {
                 InputKind::Anchor { direction: self.plane.outward(direction) }

@@ -106,6 +106,14 @@ fn kind(
             let axis = normal(plane.of_body_inward(a.row(), axes[0]), leaves);
             InputKind::JointTorque { a, b, axes: [axis; 2] }
         }
+        InputKind::JointForce { a, b, point, axis } => {
+            let axis = in_plane(plane.of_body_inward(a.row(), axis));
+            let point = plane.point_inward(b.row(), point);
+            if point.z.abs() > near {
+                leaves("target", &format!(" by {} m", short(point.z)));
+            }
+            InputKind::JointForce { a, b, point: flat(point), axis }
+        }
         InputKind::Actuator { .. } | InputKind::Signal => kind,
         InputKind::Anchor { direction } => {
             InputKind::Anchor { direction: in_plane(plane.inward(direction)) }

@@ -300,3 +300,38 @@ fn names_are_looked_up_and_the_nearest_is_offered() {
         "the scene `driven` has no readout `speed`"
     );
 }
+
+/// Points and axis are those of the laws of the joint: on its axis, in the axes of each body.
+#[test]
+fn a_force_and_a_travel_are_along_the_axis_of_their_joint() {
+    let joint = "[[joint]]\nname = \"sleeve\"\ntype = \"cylindrical\"\nbetween = [\"arm\", \"hand\"]\n\
+                 at = [1, 0.2, 0]\naxis = [2, 0, 0]\nspan = 0.1\noffset = 0.02\nstiffness = 1e5\n";
+    let target = |kind: &str| format!("type = \"{kind}\"\ntarget = \"sleeve\"");
+    let scene = scene(
+        &[
+            joint.to_owned(),
+            input("push", &target("joint_force")),
+            readout("travel", &format!("{}\noffset = \"2 cm\"", target("joint_travel"))),
+            readout("rate", &target("joint_travel_rate")),
+        ]
+        .concat(),
+    );
+    let (arm, hand) = (BodyIndex(0), BodyIndex(1));
+    let InputKind::JointForce { a, b, point, axis } = scene.model.inputs[0].kind else {
+        panic!("a force along a joint")
+    };
+    assert_eq!((a, b), (arm, hand));
+    near(point, [-0.5, 0.2, 0.0]);
+    // The arm is turned by a quarter about z: the world's x is its -y.
+    near(axis, [0.0, -1.0, 0.0]);
+    let Readout::JointTravel { slide, offset } = scene.readouts[0].readout else {
+        panic!("a travel")
+    };
+    assert_eq!((slide.bodies, offset), ([arm, hand], 0.02));
+    near(slide.points[0], [0.2, -0.5, 0.0]);
+    assert_eq!((slide.points[1], slide.axis), (point, axis));
+    assert_eq!(scene.readouts[1].readout, Readout::JointTravelRate { slide: slide });
+    assert_eq!(scene.inputs[0].unit, "N");
+    let units: Vec<_> = scene.readouts.iter().map(|info| info.columns[0]).collect();
+    assert_eq!(units, [("", "m"), ("", "m/s")]);
+}

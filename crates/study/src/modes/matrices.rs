@@ -69,7 +69,7 @@ pub(super) fn pairs(model: &SceneModel<F64>) -> BTreeSet<(usize, usize)> {
     let groups = model.groups.iter().map(|group| [group.a, group.b]);
     let torsions = model.torsions.iter().map(|spring| [spring.a, spring.b]);
     let inputs = model.inputs.iter().filter_map(|input| match input.kind {
-        InputKind::JointTorque { a, b, .. } => Some([a, b]),
+        InputKind::JointTorque { a, b, .. } | InputKind::JointForce { a, b, .. } => Some([a, b]),
         _ => None,
     });
     let count = model.bodies.len();

@@ -91,6 +91,8 @@ pub enum InputKind {
     /// A torque on the second along the gradient of its rotation about an axis, in the axes of each, on the first the
     /// opposite.
     JointTorque([End; 2], [Vector3<f64>; 2]),
+    /// A force on the second at its point along an axis of the first, on the first the opposite at the same point.
+    JointForce(End, Point, Vector3<f64>),
     /// A tension between two points.
     Actuator(Pair),
 }
@@ -113,6 +115,12 @@ impl Element for Input {
                 let torque = (first + second).normalize() * (value / half.cos());
                 turn(wrenches, *a, -torque);
                 turn(wrenches, *b, torque);
+            }
+            InputKind::JointForce(first, point, axis) => {
+                let force = at.to_world(*first, *axis) * value;
+                let place = at.place(point);
+                push(wrenches, &place, force);
+                push(wrenches, &at.material(*first, place.position), -force);
             }
             InputKind::Actuator(pair) => {
                 let deformation = pair.at(at);

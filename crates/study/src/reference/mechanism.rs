@@ -275,6 +275,10 @@ fn input_kind<T: Terms<F64>>(
         KernelInput::JointTorque { a, b, axes } => {
             InputKind::JointTorque([end(a), end(b)], axes.map(|axis| Vector3::from(axis.to_f64())))
         }
+        KernelInput::JointForce { a, b, point, axis } => {
+            let point = Point { end: end(b), local: Vector3::from(point.to_f64()) };
+            InputKind::JointForce(end(a), point, Vector3::from(axis.to_f64()))
+        }
         KernelInput::Actuator { group, element } => {
             InputKind::Actuator(pair(model, &model.groups[usize::from(group)], element.into()))
         }

@@ -279,7 +279,7 @@ pub(super) fn of_readout(key: &str, tables: &[TableKeys]) -> Option<Key> {
         "axis" => Key(numbers(3, Any), "[x, y, z]: axis of a spherical joint, world at t = 0", ""),
         "about" => Key(choice(&["first", "second"]), "Which axis of a universal joint", ""),
         "quantity" => Key(name(), "For an interaction: a quantity of its law", ""),
-        "offset" => Key(number(Any), "rad: reading at a rotation of 0", "0"),
+        "offset" => Key(number(Any), "rad or m: reading at a rotation or travel of 0", "0"),
         _ => return None,
     })
 }

@@ -46,6 +46,10 @@ pub(super) fn forces(scene: &Scene, pivots: &Pivots) -> Vec<ForceMark> {
                 let at = at.unwrap_or(Place { body: second.or(first), point: [0.0; 3] });
                 add(ForceKind::Torque, at, first, axis);
             }
+            InputKind::JointForce { a, b, point, axis } => {
+                let at = Place { body: row(b), point: point.to_f64() };
+                add(ForceKind::Force, at, row(a), axis);
+            }
             // The spring itself is marked.
             InputKind::Actuator { .. } => {}
             InputKind::Signal => {
