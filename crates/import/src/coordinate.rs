@@ -48,6 +48,8 @@ pub(crate) enum Coordinate {
     },
     /// Translation of the second body along an axis of the first.
     Slide {
+        /// The joint, and whether its travel is the opposite of the coordinate; none: no joint has this coordinate.
+        joint: Option<(String, bool)>,
         /// The bodies.
         between: [Side; 2],
         /// \[m\] a point of the second on the axis.
@@ -88,6 +90,6 @@ impl Coordinate {
 
     /// Whether an input acts along a TSDA.
     pub(crate) fn needs_line(&self) -> bool {
-        matches!(self, Self::Slide { .. } | Self::Length { .. })
+        matches!(self, Self::Slide { joint: None, .. } | Self::Length { .. })
     }
 }

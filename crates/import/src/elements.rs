@@ -42,7 +42,7 @@ impl Coordinate {
                     source,
                 });
             }
-            Self::Slide { between, at, axis, travel } => {
+            Self::Slide { between, at, axis, travel, .. } => {
                 // The endpoint on the first body lies ahead on the axis, beyond the travel of the slide: the length is
                 // then linear in the coordinate, the force acts along the axis, and both endpoints lie on it, so that
                 // the force has no moment.
@@ -106,6 +106,10 @@ impl Coordinate {
             Self::Turn { between, axis, .. } => {
                 let body = text(mechanism.name(between[1]));
                 ("torque", vec![format!("body = {body}"), format!("axis = {}", vector(*axis))], 1.0)
+            }
+            Self::Slide { joint: Some((joint, is_reversed)), .. } => {
+                let sign = if *is_reversed { -1.0 } else { 1.0 };
+                ("joint_force", vec![format!("target = {}", text(joint))], sign)
             }
             Self::Slide { .. } => ("actuator", vec![format!("target = {}", text(element))], 1.0),
             // A TSDA pulls its endpoints together.

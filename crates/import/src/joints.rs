@@ -164,7 +164,11 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
                 let across = normal.map_or(axis, |(normal, _)| normal.cross(&axis));
                 Coordinate::Shift { part, at, axis, across }
             }
-            (_, Freedom::Slide) => Coordinate::Slide { between, at, axis, travel },
+            (_, Freedom::Slide) => {
+                let known = mechanism.axes.get(&body);
+                let joint = known.map(|known| (known.joint.clone(), known.is_reversed));
+                Coordinate::Slide { joint, between, at, axis, travel }
+            }
         };
         let called = joint.name.clone().unwrap_or_else(|| name.clone());
         if joint.stiffness > 0.0 || joint.damping > 0.0 {

@@ -33,20 +33,24 @@ fn sensor(mechanism: &mut Mechanism<'_>, element: &Element) -> Result<bool, Faul
     let name = mechanism.signal_name(wanted.unwrap_or(kind), kind, &mechanism.readouts);
     if let ("jointpos" | "jointvel", Some(joint)) = (kind, element.attribute("joint")) {
         let Ok(body) = mechanism.tree.joint(joint) else { return Ok(false) };
-        let turn = mechanism.coordinates.get(&body);
-        let Some(Coordinate::Turn { joint: Some((link, about)), .. }) = turn else {
-            return Ok(false);
-        };
         let start = mechanism.pose.coordinates[body];
+        let (link, about, kinds) = match mechanism.coordinates.get(&body) {
+            Some(Coordinate::Turn { joint: Some((link, about)), .. }) => {
+                (link, *about, ["joint_angle", "joint_rate"])
+            }
+            Some(Coordinate::Slide { joint: Some((link, false)), .. }) => {
+                (link, None, ["joint_travel", "joint_travel_rate"])
+            }
+            _ => return Ok(false),
+        };
         let mut keys = vec![format!("target = {}", text(link))];
         keys.extend(about.map(|about| format!("about = \"{about}\"")));
-        let (kind, words) = match kind {
-            "jointpos" => ("joint_angle", "<jointpos>".to_owned()),
-            _ => ("joint_rate", "<jointvel>".to_owned()),
-        };
-        if kind == "joint_angle" && start != 0.0 {
+        let is_place = kind == "jointpos";
+        if is_place && start != 0.0 {
             keys.push(format!("offset = {start:?}"));
         }
+        let [place, rate] = kinds;
+        let (kind, words) = (if is_place { place } else { rate }, format!("<{kind}>"));
         mechanism.readouts.push(Signal { name, kind, keys, source: (words, element.place) });
         return Ok(true);
     }

@@ -68,7 +68,8 @@ fn laws_of_actuators_are_springs_dampers_and_inputs() {
     }
 }
 
-/// Of a slide and of a tendon they are TSDAs; a constant force without a spring is one of the input.
+/// Of a slide and of a tendon they are TSDAs, and an input acts on the slide's joint or on the tendon's TSDA; a constant
+/// force without a spring is one of the input.
 #[test]
 fn laws_along_lines_are_tsdas() {
     let text = with(
@@ -86,11 +87,34 @@ fn laws_along_lines_are_tsdas() {
     for (value, expected) in values.iter().zip(expected) {
         assert!((value - expected).abs() < 1e-12, "{values:?}");
     }
-    let targets = ["p-servo", "s-spring", "q-servo", "c-spring"];
-    for target in targets {
+    let kinds: Vec<&str> = scene.inputs.iter().map(|input| input.kind).collect();
+    assert_eq!(kinds, ["joint_force", "joint_force", "actuator", "actuator"]);
+    assert!(made.scene.contains("name = \"p-servo\"") && !made.scene.contains("s-spring"));
+    for target in ["s", "q-servo", "c-spring"] {
         assert!(made.scene.contains(&format!("target = \"{target}\"")), "{target}: {}", made.scene);
     }
     assert!(made.scene.contains("# line 3: <position>: N = -5.0 × its control + 5.59016994374947"));
+}
+
+/// Sensors of a slide read its travel, from the coordinate of the start on.
+#[test]
+fn sensors_of_a_slide_read_its_travel() {
+    let text = with(
+        "<sensor><jointpos name='x' joint='s'/><jointvel name='v' joint='s'/></sensor>\
+         <keyframe><key name='k' qpos='0 0.25' qvel='0 0.5'/></keyframe>",
+    );
+    let options = Options { keyframe: Some("k".into()), ..Options::default() };
+    let scene = loaded(&of(&text, &options));
+    let kinds: Vec<_> = scene.readouts.iter().map(|one| (one.kind, one.columns[0].1)).collect();
+    assert_eq!(kinds, [("joint_travel", "m"), ("joint_travel_rate", "m/s")]);
+    let plant = dbd_kernel::Plant::new(&scene.model, dbd_kernel::Leapfrog, 1e-4).unwrap();
+    let read = |row: usize| plant.read(&scene.readouts[row].readout).unwrap().scalar().unwrap();
+    assert!(
+        (read(0) - 0.25).abs() < 1e-12 && (read(1) - 0.5).abs() < 1e-12,
+        "{} {}",
+        read(0),
+        read(1)
+    );
 }
 
 /// What is no linear law is refused with the reason.
