@@ -28,7 +28,7 @@ use crate::vector::Vec3;
 pub struct Slide<P: Geometry> {
     /// First body A and second body B.
     pub bodies: [BodyIndex; 2],
-    /// A point of each, in its axes.
+    /// \[m\] a point of each, in its axes.
     pub points: [P::Local; 2],
     /// Unit axis, in A's axes.
     pub axis: P::Vector,

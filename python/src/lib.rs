@@ -6,7 +6,10 @@
 //!
 //! - `error`: errors as exceptions of `dbd`.
 //! - `shipped`: the built-in scenes, by name.
-//! - `rollout`: runs of many steps, and of many plants on threads.
+//! - `rollout`: runs of many steps.
+//! - `lanes`: runs of similar plants in SIMD lanes.
+//! - `alone`: one by one, without the feature `lanes`.
+//! - `threads`: runs of many plants on threads.
 //! - `arguments`: arguments from Python, and results as arrays.
 //! - `states`: the bodies' states as arrays.
 //! - `plant`: the class `Plant`, its names and parameters.
@@ -16,7 +19,12 @@
 mod error;
 mod shipped;
 
+#[cfg(not(feature = "lanes"))]
+mod alone;
+#[cfg(feature = "lanes")]
+mod lanes;
 mod rollout;
+mod threads;
 
 mod arguments;
 mod states;

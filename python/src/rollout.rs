@@ -1,21 +1,20 @@
-//! Runs of many steps, and of many plants on threads.
+//! Runs of many steps.
 //!
 //! `(plant, inputs held for some steps each) => outputs after each hold`. The interpreter is released meanwhile; every
 //! tenth of a second a run checks for interrupts.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::thread;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use dbd_plant::instance::Instance;
+use dbd_plant::instance::{Instance, InstanceError};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
 use crate::error::Refusal;
 
 /// Interval of interrupt checks.
-const LOOK: Duration = Duration::from_millis(100);
+pub(crate) const LOOK: Duration = Duration::from_millis(100);
 
 /// Steps between two reads of the clock: some tenths of a millisecond for small scenes.
 const STRIDE: u64 = 256;
@@ -38,14 +37,14 @@ impl Stop {
     }
 }
 
-impl From<dbd_plant::instance::InstanceError> for Stop {
-    fn from(error: dbd_plant::instance::InstanceError) -> Self {
+impl From<InstanceError> for Stop {
+    fn from(error: InstanceError) -> Self {
         Self::Refused(error.into())
     }
 }
 
 /// Whether there was an interrupt; only the main thread receives them.
-fn interrupted() -> Result<(), Stop> {
+pub(crate) fn interrupted() -> Result<(), Stop> {
     Python::attach(|py| py.check_signals()).map_err(Stop::Interrupted)
 }
 
@@ -63,10 +62,20 @@ impl<'s> Watch<'s> {
 
     /// Advances by the given number of steps, or until an interrupt.
     pub(crate) fn advance(&mut self, instance: &mut Instance, steps: u64) -> Result<(), Stop> {
+        self.repeat(steps, STRIDE, |now| Ok(instance.advance(now)?))
+    }
+
+    /// The given number of steps, at most `stride` at a time, or fewer on an interrupt.
+    pub(crate) fn repeat(
+        &mut self,
+        steps: u64,
+        stride: u64,
+        mut advance: impl FnMut(u64) -> Result<(), Stop>,
+    ) -> Result<(), Stop> {
         let mut left = steps;
         while left > 0 {
-            let now = left.min(STRIDE);
-            instance.advance(now)?;
+            let now = left.min(stride);
+            advance(now)?;
             left -= now;
             if self.looked.elapsed() >= LOOK {
                 if self.ended.load(Ordering::Relaxed) {
@@ -98,92 +107,56 @@ impl Course {
         &self,
         instance: &mut Instance,
         held: &[f64],
+        watch: Watch<'_>,
+    ) -> Result<Vec<f64>, Stop> {
+        self.run_from(instance, held, 0, self.rows(), watch)
+    }
+
+    /// No rows yet.
+    pub(crate) fn rows(&self) -> Vec<f64> {
+        Vec::with_capacity(self.samples * self.columns.len())
+    }
+
+    /// The same after `rows` of the samples before `from`.
+    pub(crate) fn run_from(
+        &self,
+        instance: &mut Instance,
+        held: &[f64],
+        from: usize,
+        mut rows: Vec<f64>,
         mut watch: Watch<'_>,
     ) -> Result<Vec<f64>, Stop> {
-        let mut rows = Vec::with_capacity(self.samples * self.columns.len());
-        for sample in 0..self.samples {
-            let values = held.iter().skip(sample * self.inputs.len());
-            for (input, value) in self.inputs.iter().zip(values) {
-                instance.set_input(*input, *value)?;
-            }
+        for sample in from..self.samples {
+            self.hold(instance, held, sample)?;
             watch.advance(instance, self.every)?;
             read(instance, &self.columns, &mut rows);
         }
         Ok(rows)
     }
 
-    /// The same for several plants on threads: all their rows, plant after plant. `held` is theirs in
-    /// this order. All run even if one fails; the first error is reported.
-    pub(crate) fn run_all(
+    /// Sets the inputs of a sample.
+    pub(crate) fn hold(
         &self,
-        plants: &[&Mutex<Instance>],
+        instance: &mut Instance,
         held: &[f64],
-        threads: usize,
-    ) -> Result<Vec<f64>, (usize, Stop)> {
-        let share = self.samples * self.inputs.len();
-        let (next, ended) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let work = || {
-            let mut done = Vec::new();
-            while !ended.load(Ordering::Relaxed) {
-                let row = next.fetch_add(1, Ordering::Relaxed);
-                let Some(plant) = plants.get(row) else { break };
-                let held = held.get(row * share..(row + 1) * share).unwrap_or_default();
-                let rows = match plant.try_lock() {
-                    Ok(mut instance) => self.run(&mut instance, held, Watch::new(&ended)),
-                    Err(_) => Err(Stop::Refused(Refusal::busy())),
-                };
-                done.push((row, rows));
-            }
-            done
-        };
-        let (caller, working) =
-            (thread::current(), AtomicUsize::new(threads.min(plants.len()).saturating_sub(1)));
-        let mut stopped = None;
-        let mut results: Vec<_> = thread::scope(|scope| {
-            let others = (1..threads.min(plants.len())).map(|_| {
-                scope.spawn(|| {
-                    let done = work();
-                    working.fetch_sub(1, Ordering::Release);
-                    caller.unpark();
-                    done
-                })
-            });
-            let others: Vec<_> = others.collect();
-            let mut results = work();
-            // Only this thread receives interrupts, even while it waits.
-            while working.load(Ordering::Acquire) > 0
-                && !others.iter().all(thread::ScopedJoinHandle::is_finished)
-            {
-                thread::park_timeout(LOOK);
-                if let Err(stop) = interrupted() {
-                    ended.store(true, Ordering::Relaxed);
-                    stopped = Some(stop);
-                }
-            }
-            for other in others {
-                match other.join() {
-                    Ok(done) => results.extend(done),
-                    Err(panic) => std::panic::resume_unwind(panic),
-                }
-            }
-            results
-        });
-        if let Some(stop) = stopped {
-            return Err((0, stop));
+        sample: usize,
+    ) -> Result<(), InstanceError> {
+        let values = held.iter().skip(sample * self.inputs.len());
+        let mut all = self.inputs.iter().zip(values);
+        all.try_for_each(|(input, value)| instance.set_input(*input, *value))
+    }
+
+    /// The same for a plant of Python's.
+    pub(crate) fn run_locked(
+        &self,
+        plant: &Mutex<Instance>,
+        held: &[f64],
+        ended: &AtomicBool,
+    ) -> Result<Vec<f64>, Stop> {
+        match plant.try_lock() {
+            Ok(mut instance) => self.run(&mut instance, held, Watch::new(ended)),
+            Err(_) => Err(Stop::Refused(Refusal::busy())),
         }
-        // An interrupt takes precedence over other errors.
-        let cut = |(_, rows): &(usize, Result<_, Stop>)| matches!(rows, Err(Stop::Interrupted(_)));
-        if let Some(place) = results.iter().position(cut)
-            && let (row, Err(stop)) = results.swap_remove(place)
-        {
-            return Err((row, stop));
-        }
-        results.sort_by_key(|(row, _)| *row);
-        let mut all = Vec::with_capacity(plants.len() * self.samples * self.columns.len());
-        for (row, rows) in results {
-            all.extend(rows.map_err(|stop| (row, stop))?);
-        }
-        Ok(all)
     }
 }
 

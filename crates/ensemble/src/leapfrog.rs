@@ -6,7 +6,7 @@
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::InputError;
 use dbd_kernel::{F32, F64, Leapfrog, State, Status};
-use dbd_scene::{SceneModel, widen};
+use dbd_scene::{SceneModel, rounded, widen};
 
 use crate::ensemble::{Ensemble, EnsembleError};
 use crate::in_lanes::InLanes;
@@ -37,6 +37,12 @@ pub trait AnyEnsemble: Send {
     /// # Panics
     /// If there is no such instance.
     fn hash(&mut self, instance: usize) -> u64;
+
+    /// An instance continues from a state of a plant of its model, each number rounded once; clears a failure.
+    ///
+    /// # Panics
+    /// If there is no such instance.
+    fn resume(&mut self, instance: usize, state: &State<SceneModel<F64>>);
 
     /// As [`Ensemble::set_input`].
     ///
@@ -80,6 +86,10 @@ impl<R: Number, S: InLanes + Send + 'static> AnyEnsemble for Ensemble<R, S> {
 
     fn hash(&mut self, instance: usize) -> u64 {
         self.plant(instance).hash()
+    }
+
+    fn resume(&mut self, instance: usize, state: &State<SceneModel<F64>>) {
+        self.plant_mut(instance).resume(rounded(state));
     }
 
     fn set_input(

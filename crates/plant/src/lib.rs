@@ -43,6 +43,7 @@
 //! | feature | brings |
 //! |---|---|
 //! | `comparison` | methods that exist for comparison only, micromath's square root and Euler angles: three of six precisions in space, and as much more to compile |
+//! | `lanes` | [`instance::lockstep`]: similar instances together, one per SIMD lane; it doubles what is compiled |
 
 pub mod any;
 mod budget;

@@ -23,8 +23,7 @@ use dbd_kernel::{
     BodyIndex, BodyState, Energy, F32, F64, Fixed, Geometry, Planar32, Planar64, Real as _, Scheme,
     State, Status, Vec3,
 };
-use dbd_scene::laws::convert_words;
-use dbd_scene::{Misfit, Planar, Scene, SceneModel, widen};
+use dbd_scene::{Misfit, Planar, Scene, SceneModel, rounded, widen};
 
 use crate::any::AnyPlant;
 use crate::method::{Method, SchemeChoice};
@@ -316,37 +315,23 @@ impl Shown {
         &self,
         state: &State<SceneModel<F64>>,
     ) -> Result<State<SceneModel<P>>, StateError> {
-        let bodies = match &self.planar {
-            None => state.bodies.iter().map(BodyState::convert).collect(),
-            Some(planar) => {
-                let mut bodies = Vec::with_capacity(state.bodies.len());
-                for (row, body) in state.bodies.iter().enumerate() {
-                    let turn = body.orientation.to_f64();
-                    let norm: f64 = turn.iter().map(|c| c * c).sum();
-                    if (norm - 1.0).abs() > UNIT {
-                        return Err(StateError::Orientation(BodyIndex(row as u16)));
-                    }
-                    if planar.plane.leaves(row, body, OFF_PLANE) {
-                        return Err(StateError::OffPlane(BodyIndex(row as u16)));
-                    }
-                    bodies.push(planar.plane.state_inward(row, body).convert());
-                }
-                bodies
+        let Some(planar) = &self.planar else { return Ok(rounded(state)) };
+        let mut inner = state.clone();
+        for (row, body) in inner.bodies.iter_mut().enumerate() {
+            let turn = body.orientation.to_f64();
+            let norm: f64 = turn.iter().map(|c| c * c).sum();
+            if (norm - 1.0).abs() > UNIT {
+                return Err(StateError::Orientation(BodyIndex(row as u16)));
             }
-        };
-        let mut laws = state.laws.clone();
-        if let Some(planar) = &self.planar {
-            self.exact.laws.turn_memories(&mut laws, &mut |body, v| {
-                planar.plane.of_body_inward(body.row(), Vec3::from_f64(v)).to_f64()
-            });
+            if planar.plane.leaves(row, body, OFF_PLANE) {
+                return Err(StateError::OffPlane(BodyIndex(row as u16)));
+            }
+            *body = planar.plane.state_inward(row, body);
         }
-        Ok(State {
-            bodies,
-            turns: state.turns.clone(),
-            laws: convert_words(&laws, |x| P::Real::from_f64(x).word()),
-            step: state.step,
-            signals: state.signals.iter().map(Signal::convert).collect(),
-        })
+        self.exact.laws.turn_memories(&mut inner.laws, &mut |body, v| {
+            planar.plane.of_body_inward(body.row(), Vec3::from_f64(v)).to_f64()
+        });
+        Ok(rounded(&inner))
     }
 
     /// A plant's bodies in the world.

@@ -112,7 +112,7 @@ pub use origin::Setting;
 pub use planar::Planar;
 pub use readout::ReadoutInfo;
 pub use reduction::reduced;
-pub use runtime::{SceneModel, widen};
+pub use runtime::{SceneModel, rounded, widen};
 pub use scene::{Scene, Settled, UnknownName};
 pub use settle::{Restless, relaxed, relaxed_state};
 pub use shortened::shortened;

@@ -158,6 +158,18 @@ pub fn widen<M: ModelOwner>(state: &State<M>) -> State<SceneModel<F64>> {
     }
 }
 
+/// A state in another precision, each number rounded once.
+#[must_use]
+pub fn rounded<P: Geometry>(state: &State<SceneModel<F64>>) -> State<SceneModel<P>> {
+    State {
+        bodies: state.bodies.iter().map(BodyState::convert).collect(),
+        turns: state.turns.clone(),
+        laws: convert_words(&state.laws, |x| P::Real::from_f64(x).word()),
+        step: state.step,
+        signals: state.signals.iter().map(Signal::convert).collect(),
+    }
+}
+
 /// The words of the laws' memories in a state.
 fn words_of<M: ModelOwner>(state: &State<M>) -> Vec<Word> {
     let mut list = Listed::default();

@@ -101,7 +101,7 @@ fn laws_along_lines_are_tsdas() {
 fn sensors_of_a_slide_read_its_travel() {
     let text = with(
         "<sensor><jointpos name='x' joint='s'/><jointvel name='v' joint='s'/></sensor>\
-         <keyframe><key name='k' qpos='0 0.25' qvel='0 0.5'/></keyframe>",
+         <keyframe><key name='k' qpos='0 0.25'/></keyframe>",
     );
     let options = Options { keyframe: Some("k".into()), ..Options::default() };
     let scene = loaded(&of(&text, &options));
@@ -109,12 +109,7 @@ fn sensors_of_a_slide_read_its_travel() {
     assert_eq!(kinds, [("joint_travel", "m"), ("joint_travel_rate", "m/s")]);
     let plant = dbd_kernel::Plant::new(&scene.model, dbd_kernel::Leapfrog, 1e-4).unwrap();
     let read = |row: usize| plant.read(&scene.readouts[row].readout).unwrap().scalar().unwrap();
-    assert!(
-        (read(0) - 0.25).abs() < 1e-12 && (read(1) - 0.5).abs() < 1e-12,
-        "{} {}",
-        read(0),
-        read(1)
-    );
+    assert!((read(0) - 0.25).abs() < 1e-12 && read(1).abs() < 1e-12, "{} {}", read(0), read(1));
 }
 
 /// What is no linear law is refused with the reason.

@@ -18,9 +18,10 @@ const NAME: &str = "dbd-sim";
 const ENDING: &str = ".whl";
 /// The interpreter without a global lock. Its stable interface is another one, so it needs a wheel of its own.
 const FREE_THREADED: &str = "python3.14t";
-/// What a stranger tries: a run of a scene that ships.
-const SCRIPT: &str =
-    "import dbd; plant = dbd.Plant('four-bar'); plant.advance_to(0.02); print(plant.hash_text)";
+/// What a stranger tries: a run of a scene that ships, and the same in lanes.
+const SCRIPT: &str = "import dbd; plant = dbd.Plant('four-bar'); many = [plant.copy() for _ in range(8)]; \
+                      plant.advance_to(0.02); dbd.rollouts(many, 1, plant.steps, threads=1); \
+                      assert {each.hash for each in many} == {plant.hash}; print(plant.hash_text)";
 
 /// Builds the wheel and collects what it needs.
 ///
@@ -40,6 +41,7 @@ fn build(folder: &Path, interpreter: &[&str]) -> Result<()> {
     let (mut maturin, _) = for_older_linux("maturin")?;
     maturin.args(["build", "--release", "--locked", "--zig", "--compatibility", "manylinux2014"]);
     maturin.args(["--target", LINUX, "--manifest-path", "python/Cargo.toml"]).args(interpreter);
+    maturin.args(["--features", "lanes"]);
     run(maturin.arg("--out").arg(folder))
 }
 

@@ -58,12 +58,15 @@
 //! - [`spectrum`]: eigenvalues of a matrix and the subspace of its slowest motions.
 //! - [`linear`]: the plant as a linear system.
 //! - `inverse`: static equilibrium and inverse dynamics.
+//! - `lockstep`: similar instances together, one per SIMD lane, with the feature `lanes`.
 
 pub mod blueprint;
 mod error;
 mod inverse;
 pub mod linear;
 pub mod linearisation;
+#[cfg(feature = "lanes")]
+pub mod lockstep;
 mod running;
 mod saved;
 pub mod settings;

@@ -14,6 +14,8 @@ use crate::instance::error::InstanceError;
 const GAP: f64 = 3.0;
 /// Rounds of inverse iteration. Each reduces the fast motions' part by a factor of 1.9 at least.
 const ROUNDS: usize = 40;
+/// The fractions of its multiples by squares are spread evenly.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Iterations of the Schur form per row of the matrix; LAPACK allows 30.
 const SCHUR_ITERATIONS: usize = 100;
 
@@ -100,7 +102,11 @@ pub fn slowest(a: &DMatrix<f64>, count: usize) -> Result<Slow, InstanceError> {
 
 /// An orthonormal basis of the `count` dominant motions of a matrix.
 fn spanned(inverse: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
-    let mut basis = inverse.clone().col_piv_qr().q().columns(0, count).into_owned();
+    // Columns with a part in every motion: iteration cannot bring in a motion that nothing couples to them.
+    let mut basis = DMatrix::from_fn(inverse.nrows(), count, |row, column| {
+        let at = (row * count + column + 1) as f64;
+        (at * at * GOLDEN).fract() - 0.5
+    });
     for _ in 0..ROUNDS {
         basis = (inverse * basis).qr().q();
     }
@@ -155,5 +161,19 @@ mod tests {
         }
         let refused = slowest(&a, 1).unwrap_err();
         assert!(refused.sentence().contains("the 1 slowest motions"), "{refused}");
+    }
+
+    /// A free cart beside vibrations that nothing couples to it.
+    #[test]
+    fn motions_that_nothing_couples_are_found() {
+        let mut a = DMatrix::zeros(6, 6);
+        a.view_mut((0, 3), (3, 3)).fill_with_identity();
+        [1e6, 4e6].into_iter().enumerate().for_each(|(row, k)| a[(row + 4, row + 1)] = -k);
+        let slow = slowest(&a, 2).unwrap();
+        assert!((slow.slowest_left_out - 1e3).abs() < 1e-6);
+        for fast in [1, 2, 4, 5] {
+            assert!(slow.basis.row(fast).norm() < 1e-9 * slow.basis.norm(), "{}", slow.basis);
+        }
+        assert!((&slow.dual * &slow.basis - DMatrix::identity(2, 2)).norm() < 1e-12);
     }
 }

@@ -174,6 +174,13 @@ impl Method {
         self.precision
     }
 
+    /// Whether SIMD lanes step it: leapfrog in double or single precision.
+    #[must_use]
+    pub fn in_lanes(&self) -> bool {
+        let compiled = [PrecisionName::F64, PrecisionName::F32];
+        compiled.iter().any(|precision| *self == Self::default().with_precision(*precision))
+    }
+
     /// Newton iterations per step, `None` for a scheme without any.
     #[must_use]
     pub fn newton(&self) -> Option<u32> {

@@ -3,5 +3,7 @@
 mod failure;
 mod instance;
 mod judged;
+#[cfg(feature = "lanes")]
+mod lockstep;
 mod planar;
 mod plant;

@@ -330,7 +330,7 @@ fn a_force_and_a_travel_are_along_the_axis_of_their_joint() {
     assert_eq!((slide.bodies, offset), ([arm, hand], 0.02));
     near(slide.points[0], [0.2, -0.5, 0.0]);
     assert_eq!((slide.points[1], slide.axis), (point, axis));
-    assert_eq!(scene.readouts[1].readout, Readout::JointTravelRate { slide: slide });
+    assert_eq!(scene.readouts[1].readout, Readout::JointTravelRate { slide });
     assert_eq!(scene.inputs[0].unit, "N");
     let units: Vec<_> = scene.readouts.iter().map(|info| info.columns[0]).collect();
     assert_eq!(units, [("", "m"), ("", "m/s")]);

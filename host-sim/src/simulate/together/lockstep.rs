@@ -14,13 +14,10 @@ use crate::simulate::run::{Course, Ending, SimulationError};
 /// Number of runs of a method in lockstep on this machine; 1 if lanes do not support it.
 #[must_use]
 pub fn lanes(method: &Method) -> usize {
-    let leapfrog = Method::default();
     match method.precision() {
-        PrecisionName::F64 if *method == leapfrog => lanes_in_f64(),
-        PrecisionName::F32 if *method == leapfrog.with_precision(PrecisionName::F32) => {
-            2 * lanes_in_f64()
-        }
-        _ => 1,
+        _ if !method.in_lanes() => 1,
+        PrecisionName::F32 => 2 * lanes_in_f64(),
+        _ => lanes_in_f64(),
     }
 }
 
