@@ -88,6 +88,12 @@ pub struct Input<P: Geometry> {
 }
 
 impl<P: Geometry> Input<P> {
+    /// Whether it moves the ground.
+    #[inline]
+    pub(crate) fn moves_ground(&self) -> bool {
+        matches!(self.kind, InputKind::Anchor { .. })
+    }
+
     /// A value clamped to its range.
     #[inline]
     #[must_use]

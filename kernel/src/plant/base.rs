@@ -6,12 +6,14 @@ use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
 use crate::damping::{DampingMode, Held, Pose, Share, find, share, weigh};
-use crate::elements::input::{Input, InputKind};
+use crate::elements::input::Input;
+use crate::elements::source::{Source, SourceLaw};
 use crate::extents::first_excess;
 use crate::forces::{Unpushed, Wrench, are_in_line, find_rests};
 use crate::frequency::bound;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
+use crate::keep::{Kept, Storage};
 use crate::laws::{Laws as _, Need};
 use crate::model::{FrameOf, LawShares, LawsIn, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
 use crate::pose::{Places, place_bodies};
@@ -23,7 +25,7 @@ use crate::solve::{self, LumpedJoint, MatrixWeights};
 use crate::sources::{self, SourceStep};
 use crate::state::State;
 use crate::status::{Cause, Failure, Status};
-use crate::step::{Cache, Diagonal};
+use crate::step::{Cache, Diagonal, Workspace, sample_start};
 use crate::words::{Finite, is_finite};
 
 /// A model, a step and a state.
@@ -60,6 +62,9 @@ pub(crate) type PrecisionOf<H> = <<H as Deref>::Target as ModelOwner>::Precision
 /// The signals of the inputs of the model that `H` points to.
 pub(crate) type SignalsOf<H> =
     <<H as Deref>::Target as ModelOwner>::PerInput<Signal<RealOf<<H as Deref>::Target>>>;
+/// What a step of the model that `H` points to borrows.
+pub(crate) type WorkspaceOf<'s, H> =
+    Workspace<'s, 's, PrecisionOf<H>, <<H as Deref>::Target as ModelOwner>::Terms>;
 /// One `T` per body of the model that `H` points to.
 pub(crate) type PerBody<H, T> = <<H as Deref>::Target as ModelOwner>::PerBody<T>;
 
@@ -197,39 +202,68 @@ where
         solve::find(&self.model.view(), places, matrix_weights, lumped_joints);
     }
 
+    /// What a step borrows, and the step counter.
+    #[inline(always)]
+    pub(crate) fn workspace<'s, K: Storage>(
+        &'s mut self,
+        kept: &'s mut Kept<K, H::Target>,
+    ) -> (WorkspaceOf<'s, H>, &'s mut u64) {
+        let workspace = Workspace {
+            model: self.model.view(),
+            h: self.h,
+            diagonals: self.diagonals.as_ref(),
+            rests: self.rests.as_ref(),
+            shares: self.shares.as_ref(),
+            modes: kept.modes.as_mut(),
+            plan: self.model.plan(),
+            lumped_joints: kept.lumped_joints.as_ref(),
+            half_lumped_joints: kept.half_lumped_joints.as_ref(),
+            blocks: kept.bodies.as_mut(),
+            pair_blocks: kept.pairs.as_mut(),
+            windows: self.windows.as_ref(),
+            knots: self.knots.as_ref(),
+            sources: self.sources.as_ref(),
+            signals: self.state.signals.as_mut(),
+            bodies: self.state.bodies.as_mut(),
+            turns: self.state.turns.as_mut(),
+            law_states: &mut self.state.laws,
+            law_shares: &self.law_shares,
+            step: self.state.step,
+            frames: self.frames.as_mut(),
+            wrenches: self.wrenches.as_mut(),
+            unpushed: self.unpushed.as_mut(),
+            sums: self.sums.as_mut(),
+            in_line: self.in_line,
+            cache: &mut self.cache,
+        };
+        (workspace, &mut self.state.step)
+    }
+
     /// Samples the signals of tables for the coming step.
     #[inline(always)]
     pub(crate) fn sample(&mut self) {
-        if <H::Target as ModelOwner>::Terms::INPUTS {
-            let view = self.model.view();
-            let knots = self.knots.as_ref();
-            let start =
-                StageTime { step: self.state.step, part: RealOf::<H::Target>::ZERO, h: self.h };
-            let signals = self.state.signals.as_mut();
-            let mut changed = sample(view.inputs, view.knots, knots, start, signals);
-            if <H::Target as ModelOwner>::Terms::SOURCES && !view.sources.is_empty() {
-                changed |= sources::sample(
-                    view.sources,
-                    view.knots,
-                    self.sources.as_ref(),
-                    knots,
-                    start,
-                    signals,
-                );
-                changed |= sample_over(&*self.model, &mut self.state, knots);
-            }
-            if changed {
-                let moves = view.inputs.iter().any(moves_ground);
-                self.change(moves);
-            }
-        }
+        let start = StageTime { step: self.state.step, part: RealOf::<H::Target>::ZERO, h: self.h };
+        let steps = (self.knots.as_ref(), self.sources.as_ref());
+        let signals = self.state.signals.as_mut();
+        sample_start(&self.model.view(), steps, start, signals, &mut self.cache);
+        self.sample_sensors();
     }
 
-    /// Records that an input has a new signal.
+    /// Whether the model has tables over sensors.
     #[inline(always)]
-    fn change(&mut self, moves_ground: bool) {
-        self.cache.pushed = false;
-        self.cache.fresh &= !(moves_ground || self.model.view().laws.is_driven());
+    pub(crate) fn samples_sensors(&self) -> bool {
+        let over = |source: &Source<_>| matches!(source.law, SourceLaw::Over { .. });
+        <H::Target as ModelOwner>::Terms::SOURCES && self.model.view().sources.iter().any(over)
+    }
+
+    /// Samples the signals of tables over sensors for the coming step.
+    #[inline(always)]
+    pub(crate) fn sample_sensors(&mut self) {
+        if self.samples_sensors() && sample_over(&*self.model, &mut self.state, self.knots.as_ref())
+        {
+            let view = self.model.view();
+            self.cache.note_input(&view, view.inputs.iter().any(Input::moves_ground));
+        }
     }
 
     /// The signals of the inputs at `part` of the coming step, 0 to 1, for its stages. At 1 they are those before a
@@ -296,14 +330,13 @@ where
             return Err(InputError::NotFinite(input));
         }
         let value = known.bounded(value);
-        if moves_ground(known) && !<H::Target as ModelOwner>::Precision::bears_shift(value) {
+        if known.moves_ground() && !<H::Target as ModelOwner>::Precision::bears_shift(value) {
             return Err(InputError::Extent(input));
         }
         let now = Signal { value, rate };
         if *signal != now {
             *signal = now;
-            let moves = moves_ground(known);
-            self.change(moves);
+            self.cache.note_input(&view, known.moves_ground());
         }
         Ok(())
     }
@@ -318,7 +351,7 @@ where
         let inputs = self.model.view().inputs;
         let known = inputs.iter().zip(state.signals.as_ref());
         if let Some(row) = known.into_iter().position(|(input, signal)| {
-            moves_ground(input) && !<H::Target as ModelOwner>::Precision::bears_shift(signal.value)
+            input.moves_ground() && !<H::Target as ModelOwner>::Precision::bears_shift(signal.value)
         }) {
             return Err(StateError::Signal(InputIndex(row as u16)));
         }
@@ -350,10 +383,6 @@ pub(crate) fn is_planned<M: ModelOwner>(model: &M) -> bool {
         ends
     });
     model.plan().fits(view.bodies.len(), ends.chain(of_laws))
-}
-
-fn moves_ground<P: Geometry>(input: &Input<P>) -> bool {
-    matches!(input.kind, InputKind::Anchor { .. })
 }
 
 /// Whether a plant in the state `own` can continue from `state`.

@@ -8,11 +8,13 @@ pub(crate) mod base;
 
 use core::ops::Deref;
 
+use crate::body::BodyState;
 use crate::damping::Damping;
+use crate::geometry::Geometry;
 use crate::guards::{first_beyond, first_fault};
 use crate::index::InputIndex;
 use crate::keep::{Kept, Storage};
-use crate::model::{ModelOwner, ModelRef, RealOf};
+use crate::model::{ModelOwner, ModelRef, RealOf, Terms};
 use crate::pose::Places;
 use crate::real::Real;
 pub use crate::refusal::{InputError, PlantError, StateError};
@@ -88,22 +90,48 @@ where
     /// change nothing and return the same failure.
     #[inline]
     pub fn step(&mut self) -> Status {
-        if !self.base.status.is_running() {
-            return self.base.status;
+        self.advance_by(1)
+    }
+
+    /// `n` steps with held inputs, or as many as succeed. Cheaper than `n` calls of [`Self::step`].
+    pub fn advance(&mut self, n: u64) -> Status {
+        self.advance_by(n)
+    }
+
+    #[inline(always)]
+    fn advance_by(&mut self, n: u64) -> Status {
+        // The whole plant samples tables over sensors, so it is borrowed for one step at a time.
+        let stride = if self.base.samples_sensors() { 1 } else { n };
+        let mut left = n;
+        while left > 0 && self.base.status.is_running() {
+            left -= stride;
+            if let Err(cause) = self.run(stride) {
+                return self.fail(cause);
+            }
+            self.base.sample_sensors();
         }
-        // Incremented first, so that no register holds the counter during the step.
-        let step = self.base.state.step;
-        let Some(next) = step.checked_add(1) else { return self.fail(Cause::Steps) };
-        self.base.state.step = next;
-        let cause = match self.attempt(step) {
-            Ok(()) => self.fault(),
-            Err(cause) => Some(cause),
-        };
-        if let Some(cause) = cause {
-            return self.fail(cause);
+        self.base.status
+    }
+
+    /// `n` steps with their guards; what the steps borrow is gathered once.
+    #[inline(always)]
+    fn run(&mut self, n: u64) -> Result<(), Cause> {
+        let Self { base, scheme, kept, memory } = self;
+        let (workspace, counter) = base.workspace(kept);
+        let mut stepper = Stepper { workspace, memory: memory.as_mut() };
+        for _ in 0..n {
+            // Incremented first, so that no register holds the counter during the step.
+            stepper.workspace.step = *counter;
+            *counter = counter.checked_add(1).ok_or(Cause::Steps)?;
+            scheme.step(&mut stepper)?;
+            let Workspace { bodies, turns, h, .. } = &stepper.workspace;
+            if let Some(cause) = fault::<_, <H::Target as ModelOwner>::Terms, S>(bodies, turns, *h)
+            {
+                return Err(cause);
+            }
+            stepper.workspace.sample_start(*counter);
         }
-        self.base.sample();
-        Status::Running
+        Ok(())
     }
 
     /// One step without the guards, whatever the status, which is unchanged: for callers with guards of their own, as
@@ -113,46 +141,14 @@ where
     /// The failure of the scheme.
     #[inline(always)]
     pub fn step_unguarded(&mut self) -> Result<(), Cause> {
-        let step = self.base.state.step;
-        self.base.state.step = step.wrapping_add(1);
-        let done = self.attempt(step);
-        self.base.sample();
+        let Self { base, scheme, kept, memory } = self;
+        let (workspace, counter) = base.workspace(kept);
+        let mut stepper = Stepper { workspace, memory: memory.as_mut() };
+        *counter = counter.wrapping_add(1);
+        let done = scheme.step(&mut stepper);
+        stepper.workspace.sample_start(*counter);
+        self.base.sample_sensors();
         done
-    }
-
-    /// The scheme's step of this number.
-    #[inline(always)]
-    fn attempt(&mut self, step: u64) -> Result<(), Cause> {
-        let model = self.base.model.view();
-        let workspace = Workspace {
-            model,
-            h: self.base.h,
-            diagonals: self.base.diagonals.as_ref(),
-            rests: self.base.rests.as_ref(),
-            shares: self.base.shares.as_ref(),
-            modes: self.kept.modes.as_mut(),
-            plan: self.base.model.plan(),
-            lumped_joints: self.kept.lumped_joints.as_ref(),
-            half_lumped_joints: self.kept.half_lumped_joints.as_ref(),
-            blocks: self.kept.bodies.as_mut(),
-            pair_blocks: self.kept.pairs.as_mut(),
-            windows: self.base.windows.as_ref(),
-            knots: self.base.knots.as_ref(),
-            sources: self.base.sources.as_ref(),
-            signals: self.base.state.signals.as_mut(),
-            bodies: self.base.state.bodies.as_mut(),
-            turns: self.base.state.turns.as_mut(),
-            law_states: &mut self.base.state.laws,
-            law_shares: &self.base.law_shares,
-            step,
-            frames: self.base.frames.as_mut(),
-            wrenches: self.base.wrenches.as_mut(),
-            unpushed: self.base.unpushed.as_mut(),
-            sums: self.base.sums.as_mut(),
-            in_line: self.base.in_line,
-            cache: &mut self.base.cache,
-        };
-        self.scheme.step(&mut Stepper { workspace, memory: self.memory.as_mut() })
     }
 
     /// Latches a failure.
@@ -180,30 +176,13 @@ where
     #[must_use]
     pub fn fault(&self) -> Option<Cause> {
         let (bodies, turns) = (self.base.state.bodies.as_ref(), self.base.state.turns.as_ref());
-        let limits = (self.base.h, S::MAX_TURN);
-        match first_fault::<_, <H::Target as ModelOwner>::Terms>(bodies, turns, limits) {
-            Some(Cause::Spin { body }) if S::MAX_TURN.single < MAX_TURN as f32 => {
-                Some(Cause::Turn { body })
-            }
-            None => first_beyond(bodies),
-            some => some,
-        }
+        fault::<_, <H::Target as ModelOwner>::Terms, S>(bodies, turns, self.base.h)
     }
 
     /// Clears a failure and leaves the state as it is. A state that is not finite, rotates too fast or has overflowed
     /// fails again.
     pub fn clear(&mut self) {
         self.base.status = Status::Running;
-    }
-
-    /// `n` steps with held inputs, or as many as succeed.
-    pub fn advance(&mut self, n: u64) -> Status {
-        for _ in 0..n {
-            if !self.step().is_running() {
-                break;
-            }
-        }
-        self.base.status
     }
 
     /// Sets an input \[N, N·m, or m for an anchor, then at rest\], within its range; it is held until set again.
@@ -333,5 +312,21 @@ where
     /// FNV-1a 64 over the state's words.
     pub fn hash(&self) -> u64 {
         self.base.state.hash()
+    }
+}
+
+/// The first fault of a state after a step `h` of a scheme.
+#[inline]
+fn fault<P: Geometry, T: Terms<P>, S: Scheme>(
+    bodies: &[BodyState<P>],
+    turns: &[i32],
+    h: P::Real,
+) -> Option<Cause> {
+    match first_fault::<P, T>(bodies, turns, (h, S::MAX_TURN)) {
+        Some(Cause::Spin { body }) if S::MAX_TURN.single < MAX_TURN as f32 => {
+            Some(Cause::Turn { body })
+        }
+        None => first_beyond(bodies),
+        some => some,
     }
 }

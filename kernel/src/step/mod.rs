@@ -1,6 +1,6 @@
 //! The building blocks of schemes: evaluation, kick, drift, on the memory of one plant.
 //!
-//! [`Workspace`] borrows model, state and scratch for one step. A kick changes velocities by
+//! [`Workspace`] borrows model, state and scratch for steps. A kick changes velocities by
 //! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal ½·h·D⁻¹ is computed once per (model, step),
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
 
@@ -16,6 +16,7 @@ use core::ops::{Deref, DerefMut};
 pub use crate::body::Diagonal;
 use crate::body::{BodyState, Increment};
 use crate::damping::{DampingMode, Share};
+use crate::elements::input::Input;
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Memories, Unpushed, Wrench};
 use crate::geometry::Geometry;
 use crate::laws::Laws;
@@ -49,6 +50,39 @@ pub(crate) struct Cache {
     pub(crate) stops: u16,
     /// Whether a scheme's memory belongs to the present state. Unlike the others part of a snapshot.
     pub(crate) begun: bool,
+}
+
+impl Cache {
+    /// Records that an input has a new signal; `moves` tells whether it moves the ground.
+    #[inline(always)]
+    pub(crate) fn note_input<P: Geometry, T: Terms<P>>(
+        &mut self,
+        model: &ModelRef<'_, P, T>,
+        moves: bool,
+    ) {
+        self.pushed = false;
+        self.fresh &= !(moves || model.laws.is_driven());
+    }
+}
+
+/// Samples the tables of a model's inputs at the start of a step.
+#[inline(always)]
+pub(crate) fn sample_start<P: Geometry, T: Terms<P>>(
+    model: &ModelRef<'_, P, T>,
+    (knots, sources): (&[KnotStep<P::Real>], &[SourceStep]),
+    start: StageTime<P::Real>,
+    signals: &mut [Signal<P::Real>],
+    cache: &mut Cache,
+) {
+    if T::INPUTS {
+        let mut changed = schedule::sample(model.inputs, model.knots, knots, start, signals);
+        if T::SOURCES && !model.sources.is_empty() {
+            changed |= sources::sample(model.sources, model.knots, sources, knots, start, signals);
+        }
+        if changed {
+            cache.note_input(model, model.inputs.iter().any(Input::moves_ground));
+        }
+    }
 }
 
 /// Model, state and scratch of one plant, borrowed for one step, with the scheme's memory `S` per body.
@@ -151,6 +185,14 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     pub fn has_dampers(&self) -> bool {
         (T::DAMPERS && !self.model.dampers.is_empty())
             || (<LawsIn<P, T> as Laws<P>>::DAMPED && self.model.laws.is_damped())
+    }
+
+    /// Samples the tables of inputs for the coming step.
+    #[inline(always)]
+    pub(crate) fn sample_start(&mut self, step: u64) {
+        let start = StageTime { step, part: P::Real::ZERO, h: self.h };
+        let steps = (self.knots, self.sources);
+        sample_start(&self.model, steps, start, self.signals, self.cache);
     }
 
     /// Samples the tables of inputs at the time of a stage, at `part` of this step, 0 to 1. A step begins with part 0;
