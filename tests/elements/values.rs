@@ -103,6 +103,37 @@ fn drawn(step: f64) -> f64 {
     }
 }
 
+/// The arithmetic-geometric mean (Gauss): a pendulum's period at the amplitude φ is 2π/(ω·mean(1, cos(φ/2))).
+fn mean(a: f64, b: f64) -> f64 {
+    if (a - b).abs() < 1e-15 { a } else { mean(0.5 * (a + b), (a * b).sqrt()) }
+}
+
+/// The time of a whole swing on a bushing of 30 N·m/rad about z, thrown so that it turns by 120°.
+fn swung(step: f64) -> f64 {
+    let text = mass(
+        1.0,
+        0.0,
+        0.0,
+        0.0,
+        "angular_velocity = [0, 0, 30]\n[[interaction]]\nname = \"mount\"\nlaw = \"bushing\"\n\
+         between = [\"world\", \"mass\"]\npoints = [[0, 0, 0], [0, 0, 0]]\nx = [1, 0, 0]\nz = [0, 0, 1]\n\
+         stiffness_x = 1e4\nstiffness_y = 1e4\nstiffness_z = 1e4\nturn_stiffness_x = 10\n\
+         turn_stiffness_y = 20\nturn_stiffness_z = 30\n[[readout]]\nname = \"torque\"\ntype = \"interaction\"\n\
+         target = \"mount\"\nquantity = \"torque_z\"",
+    );
+    let mut run = instance(&text, step, "f64");
+    let torque = run.output("torque").unwrap();
+    let mut last = 0.0;
+    loop {
+        run.advance(1).unwrap();
+        let now = run.value(torque);
+        if last < 0.0 && now >= 0.0 {
+            return run.time() - step * now / (now - last);
+        }
+        last = now;
+    }
+}
+
 /// A block of 1 kg between a spring of 1 kN/m and dry friction of 5 N, let go 72 mm beside its rest.
 const BLOCK: &str = "name = \"block\"\nduration = 1\n[[body]]\nname = \"mass\"\nmass = 1\ninertia = [0.1, 0.1, 0.1]\n\
                      position = [0.072, 0, 0]\n[[tsda]]\nbetween = [\"world\", \"mass\"]\n\
@@ -255,6 +286,15 @@ fn cases() -> Vec<Case> {
             Box::new(move |h| {
                 at(&disc(0.0, backspin, "friction = 0.2\ndamping = 100"), h, 1.0, "disc.vx")
             }),
+        ),
+        case(
+            "bushing",
+            "period of a rotation by ±120°",
+            "s",
+            std::f64::consts::TAU / (300.0_f64.sqrt() * mean(1.0, 0.5)),
+            2e-4,
+            1e-5,
+            Box::new(swung),
         ),
         case(
             "hinge-drive",

@@ -17,6 +17,7 @@ mod declare;
 
 mod branch;
 mod branches;
+mod bushing;
 mod coordinate;
 mod coupling;
 mod curve;
@@ -49,6 +50,7 @@ mod tabled;
 mod term;
 
 pub use branch::{Branch, MAX_BRANCHES};
+pub use bushing::Bushing;
 pub(crate) use coordinate::travel;
 pub use coupling::{Coupling, Sum};
 pub use curve::Curve;

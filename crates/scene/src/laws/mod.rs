@@ -52,6 +52,7 @@ pub fn known_laws() -> Vec<KnownLaw> {
         KnownLaw::of::<laws::HingeStop>("dbd_kernel::laws::HingeStop"),
         KnownLaw::of::<laws::DistanceStop>("dbd_kernel::laws::DistanceStop"),
         KnownLaw::of::<laws::PlaneContact>("dbd_kernel::laws::PlaneContact"),
+        KnownLaw::of::<laws::Bushing>("dbd_kernel::laws::Bushing"),
         KnownLaw::of::<laws::DistanceSpring>("dbd_kernel::laws::DistanceSpring"),
         KnownLaw::of::<laws::DistanceDamper>("dbd_kernel::laws::DistanceDamper"),
         KnownLaw::of::<laws::HingeSpring>("dbd_kernel::laws::HingeSpring"),

@@ -5,9 +5,9 @@
 //! shipped model with leapfrog in single precision, some in fixed point.
 
 use dbd_kernel::laws::{
-    Coupling, DistanceDamper, DistanceSpring, DistanceStop, EndStop, HingeDamper, HingeDrive,
-    HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact, SlideDrive, SlideFriction,
-    SlideServo,
+    Bushing, Coupling, DistanceDamper, DistanceSpring, DistanceStop, EndStop, HingeDamper,
+    HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact, SlideDrive,
+    SlideFriction, SlideServo,
 };
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
@@ -34,6 +34,7 @@ type OfTurns<P> = Lawful<
     P,
     (
         [Coupling<P>; 1],
+        [Bushing<P>; 1],
         [HingeStop<P>; 1],
         [HingeFriction<P>; 1],
         [HingeSpring<P>; 1],
