@@ -46,9 +46,7 @@ use crate::commands::import::{self, Import, ImportArguments};
 use crate::commands::linearise::LineariseArguments;
 use crate::commands::list::list;
 use crate::commands::manual;
-use crate::commands::new::{
-    NewCommand, NewError, PlantArguments, SceneArguments, c, firmware, laws, scene,
-};
+use crate::commands::new::{NewCommand, NewError, SceneArguments, c, firmware, laws, scene};
 use crate::commands::report::{ReportArguments, report};
 use crate::commands::schema;
 use crate::commands::sweep::{SweepArguments, sweep};
@@ -201,9 +199,12 @@ where
         Command::Play(arguments) => play_scenes(&catalogue, &arguments, console),
         Command::Import(arguments) => import_file(&arguments, console),
         Command::New(NewCommand::Firmware(arguments)) => {
-            new_plant(&catalogue, &arguments, firmware, console)
+            let write = |found: &Found| firmware(&arguments, found);
+            new_plant(&catalogue, &arguments.plant.scene, write, console)
         }
-        Command::New(NewCommand::C(arguments)) => new_plant(&catalogue, &arguments, c, console),
+        Command::New(NewCommand::C(arguments)) => {
+            new_plant(&catalogue, &arguments.scene, |found| c(&arguments, found), console)
+        }
         Command::New(NewCommand::Laws(arguments)) => laws(&arguments)
             .map_err(Error::from)
             .and_then(|said| console.print(&said).map_err(Error::from))
@@ -320,12 +321,12 @@ fn import_file(arguments: &ImportArguments, console: &mut Console<'_>) -> Result
 
 fn new_plant(
     catalogue: &Catalogue,
-    arguments: &PlantArguments,
-    write: fn(&PlantArguments, &Found) -> Result<String, NewError>,
+    scene: &str,
+    write: impl FnOnce(&Found) -> Result<String, NewError>,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    let found = catalogue.load(&arguments.scene)?;
-    console.print(&write(arguments, &found)?)?;
+    let found = catalogue.load(scene)?;
+    console.print(&write(&found)?)?;
     Ok(Exit::Done)
 }
 

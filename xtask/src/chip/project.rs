@@ -28,7 +28,7 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
     // Not below the repository, whose .cargo/config.toml cargo would add to the project's.
     let folder = std::env::temp_dir().join(format!("dbd-{NAME}-{}", std::process::id()));
     fs::create_dir_all(&folder)?;
-    let both = [written(&host_sim, &folder.join(NAME), SCENE), balanced(&host_sim, &folder)];
+    let both = [written(&host_sim, &folder.join(NAME), SCENE, &[]), balanced(&host_sim, &folder)];
     let checked = both.into_iter().try_for_each(|project| {
         let project = project?;
         on_the_target(toolchain, &project)?;
@@ -43,6 +43,7 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
             Ok(())
         }
     });
+    let checked = checked.and_then(|()| in_double_precision(toolchain, &host_sim, &folder));
     let checked = checked.and_then(|()| c_project::check(toolchain, &folder, &host_sim, here));
     fs::remove_dir_all(&folder)?;
     checked
@@ -59,13 +60,38 @@ const CONTROL: [&str; 2] = [
     "mod control;\npub mod controller;\npub use control::control;",
 ];
 
+/// A scene, and a core with double precision in hardware: a step in software takes about 190,000 instructions.
+const DOUBLE: [&str; 2] = ["scenes/hexagon.toml", "cortex-m7"];
+const MOST: u64 = 20_000;
+/// What the program `cost` prints before the mean.
+const COUNTED: &str = "mean ";
+
+/// The bits of double precision in hardware are those of the PC.
+fn in_double_precision(toolchain: &Toolchain, host_sim: &Path, folder: &Path) -> Result<()> {
+    let [scene, core] = DOUBLE;
+    let options = ["--precision", "f64", "--scheme", "leapfrog", "--core", core];
+    let project = written(host_sim, &folder.join(core), scene, &options)?;
+    on_the_target(toolchain, &project)?;
+    let mut command = toolchain.cargo("run", LIBRARIES);
+    within(&mut command, toolchain, &project);
+    let printed = output(command.args(["--bin", "cost"]))?;
+    println!("{printed}");
+    let mean = printed.split_once(COUNTED).and_then(|(_, rest)| rest.split(',').next());
+    let mean: u64 = mean.context("no count of instructions")?.parse()?;
+    if mean > MOST {
+        bail!("a step takes {mean} instructions: its double precision is not in hardware");
+    }
+    Ok(())
+}
+
 /// A project in a folder, with the versions that the repository's lock file names.
-fn written(host_sim: &Path, project: &Path, scene: &str) -> Result<PathBuf> {
+fn written(host_sim: &Path, project: &Path, scene: &str, options: &[&str]) -> Result<PathBuf> {
     run(program(host_sim)
         .args(["new", "firmware"])
         .arg(project)
         .arg("--scene")
-        .arg(root().join(scene)))?;
+        .arg(root().join(scene))
+        .args(options))?;
     fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock"))?;
     Ok(project.to_owned())
 }
@@ -73,7 +99,7 @@ fn written(host_sim: &Path, project: &Path, scene: &str) -> Result<PathBuf> {
 /// The project of the robot with its controller, as the cookbook says.
 fn balanced(host_sim: &Path, folder: &Path) -> Result<PathBuf> {
     let scene = format!("{ROBOT}/balance-robot.toml");
-    let project = written(host_sim, &folder.join("balance-robot"), &scene)?;
+    let project = written(host_sim, &folder.join("balance-robot"), &scene, &[])?;
     let copy = |file: &str, to: &str| fs::copy(root().join(ROBOT).join(file), project.join(to));
     copy("control.rs", "src/control.rs")?;
     copy("controller.rs", "src/controller.rs")?;

@@ -4,6 +4,8 @@
 
 use std::path::PathBuf;
 
+use clap::{Args, ValueEnum};
+use dbd_plant::PrecisionName;
 use dbd_plant::digits::significant;
 use dbd_plant::time::rounded;
 use dbd_scene::Scene;
@@ -15,6 +17,40 @@ use super::plant::Planted;
 use super::{NewError, Place, PlantArguments};
 use crate::commands::schema;
 use crate::terminal::Found;
+
+/// A core of a microcontroller, with the machine of QEMU that has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Core {
+    /// Single precision in hardware
+    #[default]
+    CortexM4f,
+    /// Double precision in hardware, too
+    CortexM7,
+}
+
+impl Core {
+    /// Its name, the machine of QEMU, options of the compiler in cargo's configuration.
+    fn values(self) -> [(&'static str, &'static str); 3] {
+        let [name, machine, flags] = match self {
+            Self::CortexM4f => ["Cortex-M4F", "mps2-an386", ""],
+            Self::CortexM7 => {
+                ["Cortex-M7", "mps2-an500", "rustflags = [\"-C\", \"target-cpu=cortex-m7\"]\n"]
+            }
+        };
+        [("core", name), ("machine", machine), ("flags", flags)]
+    }
+}
+
+/// A project for a microcontroller.
+#[derive(Clone, Debug, Args)]
+pub struct FirmwareArguments {
+    /// The plant
+    #[command(flatten)]
+    pub plant: PlantArguments,
+    /// The core: QEMU's machine and the compiler's options
+    #[arg(long, value_enum, default_value_t)]
+    pub core: Core,
+}
 
 /// Constants that the project's page shows of a kind.
 const SHOWN: usize = 6;
@@ -54,11 +90,14 @@ const ELSEWHERE: &str = "\n# The crates are in a folder of one machine (Cargo.to
 ///
 /// # Errors
 /// [`NewError`]; nothing is written then.
-pub fn firmware(arguments: &PlantArguments, found: &Found) -> Result<String, NewError> {
-    let place = Place::of(&arguments.name)?;
+pub fn firmware(arguments: &FirmwareArguments, found: &Found) -> Result<String, NewError> {
+    let FirmwareArguments { plant, core } = arguments;
+    let place = Place::of(&plant.name)?;
     let Planted { scene, choice, dependencies, golden, mut values, file } =
-        Planted::of(&place, found, arguments)?;
-    let estimate = instructions(scene, &choice.method, &Costs::shipped());
+        Planted::of(&place, found, plant)?;
+    // Instructions were counted on a Cortex-M4F, which has double precision in software.
+    let counted = *core == Core::CortexM4f || choice.method.precision() != PrecisionName::F64;
+    let estimate = instructions(scene, &choice.method, &Costs::shipped()).filter(|_| counted);
     let estimate = estimate.map_or_else(String::new, |count| {
         format!(
             "about {} instructions per step, estimated from bodies and elements",
@@ -71,12 +110,14 @@ pub fn firmware(arguments: &PlantArguments, found: &Found) -> Result<String, New
         ("hints", hints(scene, &suffix)),
         ("constants", constants(scene, &suffix)),
     ]);
+    values.extend(core.values().map(|(name, value)| (name, value.to_owned())));
+    let [(_, core), ..] = core.values();
     let golden_file = (PathBuf::from("tests/golden.txt"), golden);
     let schema_file = (PathBuf::from(format!("scenes/{}", schema::FILE)), schema::text());
     place.write(TEMPLATES, &values, vec![file, golden_file, schema_file])?;
     Ok(format!(
         "{0}: the scene {1} as a plant in firmware: {3}; {2}\n{4}\n  cd {0}\n  cargo test    golden bits on the \
-         PC\n  cargo qemu    the same bits on a Cortex-M4F in QEMU; README.md says what to install\n  cargo \
+         PC\n  cargo qemu    the same bits on a {core} in QEMU; README.md says what to install\n  cargo \
          cost    instructions of a step there: {5}\n",
         place.folder.display(),
         scene.name,
@@ -148,10 +189,14 @@ mod tests {
         let dependencies = DependencyOptions { registry: true, ..DependencyOptions::default() };
         let choice = ChoiceOptions::default();
         let scene = "gyroscope".to_owned();
-        firmware(&PlantArguments { name, scene, dependencies, choice }, &found).unwrap();
+        let plant = PlantArguments { name, scene, dependencies, choice };
+        firmware(&FirmwareArguments { plant, core: Core::CortexM7 }, &found).unwrap();
         for (path, _) in TEMPLATES {
             let text = std::fs::read_to_string(folder.join(path)).unwrap();
             assert!(!text.contains("{{"), "{path}: {text}");
+            assert!(!text.contains("M4F") && !text.contains("an386"), "{path}: {text}");
         }
+        let settings = std::fs::read_to_string(folder.join(".cargo/config.toml")).unwrap();
+        assert!(settings.contains("mps2-an500") && settings.contains("target-cpu=cortex-m7"));
     }
 }

@@ -25,7 +25,7 @@ use choice::{ChoiceError, ChoiceOptions};
 
 pub use c::c;
 pub use dependencies::{DependencyOptions, NoSources};
-pub use firmware::firmware;
+pub use firmware::{Core, FirmwareArguments, firmware};
 pub use laws::{LawsArguments, laws};
 pub use name::NameError;
 pub use scene::{SceneArguments, scene};
@@ -38,7 +38,7 @@ pub const SCENE: &str = "cart-pendulum";
 pub enum NewCommand {
     /// Writes a firmware project with a scene as its plant, for QEMU and the PC
     #[command(after_help = help::NEW_FIRMWARE)]
-    Firmware(PlantArguments),
+    Firmware(FirmwareArguments),
     /// Writes a C firmware project with a scene as its plant: a static library, its header and a program
     #[command(after_help = help::NEW_C)]
     C(PlantArguments),
