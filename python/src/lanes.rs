@@ -15,8 +15,8 @@ use crate::rollout::{Course, Stop, Watch, read};
 /// Body-steps between two interrupt checks: some tens of milliseconds.
 const STRIDE: u64 = 1 << 16;
 
-/// Steps of a hold from which lanes pay: states are copied into the lanes and back for each.
-const SHORTEST: u64 = 1;
+/// Steps of a hold from which lanes are faster: states are copied into the lanes and back for each.
+const SHORTEST: u64 = 5;
 
 impl Course {
     /// Number of neighbouring plants that run together.
