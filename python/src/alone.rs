@@ -22,7 +22,6 @@ impl Course {
         held: &[&[f64]],
         ended: &AtomicBool,
     ) -> Vec<Result<Vec<f64>, Stop>> {
-        let alone = plants.iter().zip(held);
-        alone.map(|(plant, held)| self.run_locked(plant, held, ended)).collect()
+        self.run_each(plants, held, ended)
     }
 }

@@ -23,7 +23,9 @@ impl Course {
     pub(crate) fn group(&self, plants: &[&Mutex<Instance>], threads: usize) -> usize {
         let first = plants.first().and_then(|plant| plant.try_lock().ok());
         match first {
-            Some(first) if self.every >= SHORTEST => {
+            // Damper passes are not compiled for wide registers throughout: plants with
+            // dampers gain little or lose.
+            Some(first) if self.every >= SHORTEST && first.scene().model.dampers.is_empty() => {
                 Lockstep::lanes(&first, plants.len().div_ceil(threads.max(1)))
             }
             _ => 1,
@@ -45,8 +47,7 @@ impl Course {
                 return self.run_together(lanes, &mut instances, held, ended);
             }
         }
-        let alone = plants.iter().zip(held);
-        alone.map(|(plant, held)| self.run_locked(plant, held, ended)).collect()
+        self.run_each(plants, held, ended)
     }
 
     /// The rows of each plant; once one fails, the others continue one by one.

@@ -146,17 +146,19 @@ impl Course {
         all.try_for_each(|(input, value)| instance.set_input(*input, *value))
     }
 
-    /// The same for a plant of Python's.
-    pub(crate) fn run_locked(
+    /// The rows of each plant of Python's, one plant after the other.
+    pub(crate) fn run_each(
         &self,
-        plant: &Mutex<Instance>,
-        held: &[f64],
+        plants: &[&Mutex<Instance>],
+        held: &[&[f64]],
         ended: &AtomicBool,
-    ) -> Result<Vec<f64>, Stop> {
-        match plant.try_lock() {
+    ) -> Vec<Result<Vec<f64>, Stop>> {
+        let each = plants.iter().zip(held);
+        each.map(|(plant, held)| match plant.try_lock() {
             Ok(mut instance) => self.run(&mut instance, held, Watch::new(ended)),
             Err(_) => Err(Stop::Refused(Refusal::busy())),
-        }
+        })
+        .collect()
     }
 }
 

@@ -11,7 +11,7 @@ use dbd_plant::instance::Instance;
 use crate::rollout::{Course, LOOK, Stop, interrupted};
 
 impl Course {
-    /// The same for several plants on threads, and in SIMD lanes where they are alike: all their rows, plant after
+    /// The outputs of several plants on threads, and in SIMD lanes where they are alike: all their rows, plant after
     /// plant. `held` is theirs in this order. All run even if one fails; the first error is reported.
     pub(crate) fn run_all(
         &self,
@@ -22,17 +22,14 @@ impl Course {
         let share = self.samples * self.inputs.len();
         let (next, ended) = (AtomicUsize::new(0), AtomicBool::new(false));
         let group = self.group(plants, threads);
-        let groups = plants.len().div_ceil(group);
+        let parts: Vec<_> = plants.chunks(group).collect();
+        let groups = parts.len();
         let work = || {
             let mut done = Vec::new();
             while !ended.load(Ordering::Relaxed) {
-                let first = next.fetch_add(1, Ordering::Relaxed) * group;
-                let Some(plants) = plants.get(first..(first + group).min(plants.len())) else {
-                    break;
-                };
-                if plants.is_empty() {
-                    break;
-                }
+                let part = next.fetch_add(1, Ordering::Relaxed);
+                let Some(plants) = parts.get(part) else { break };
+                let first = part * group;
                 let held = |row: usize| held.get(row * share..(row + 1) * share);
                 let held: Vec<_> = (first..first + plants.len())
                     .map(|row| held(row).unwrap_or_default())

@@ -165,6 +165,27 @@ def test_rollouts_are_steps() -> None:
     assert plant.rollout(0).shape == (0, len(plant.outputs))
 
 
+def test_similar_undamped_plants_have_the_bits_of_one() -> None:
+    def linkage(row: int) -> dbd.Plant:
+        stiff = ["joint.*.stiffness=1e14"] if row == 3 else []
+        return dbd.Plant("four-bar", changes=[f"gravity[1]={-9.0 - row}", *stiff])
+
+    rows, steps = range(9), 10
+    alone = [linkage(row) for row in rows]
+    for plant in alone[:3] + alone[4:]:
+        plant.rollout(20, steps)
+    for threads in (1, 3):
+        plants = [linkage(row) for row in rows]
+        with pytest.raises(dbd.StepFailed) as told:
+            dbd.rollouts(plants, 20, steps, threads=threads)
+        assert told.value.plant == 3
+        for one, other in zip(plants[:3] + plants[4:], alone[:3] + alone[4:], strict=True):
+            assert (one.hash, one.steps) == (other.hash, other.steps)
+        well = [linkage(row) for row in (0, 1, 2, 4, 5, 6, 7, 8)]
+        traces = dbd.rollouts(well, 20, steps, threads=threads)
+        assert np.array_equal(traces[4], linkage(5).rollout(20, steps))
+
+
 def test_many_on_threads_have_the_bits_of_one() -> None:
     forces = np.random.default_rng(1).normal(size=(5, 20, 1))
     singles = np.stack([cart().rollout(u, 10) for u in forces])
