@@ -274,6 +274,8 @@ fn axis_error<P: Geometry>(
     AxisError::new(a.to_world(universal.lever), b.to_world(universal.axis))
 }
 
+// Callees of a step in lanes are inlined, as the step is compiled for more target features than they: closures are not.
+#[inline(always)]
 fn unit<V: Vector>(v: V) -> V {
     v * v.dot(v).sqrt().reciprocal_or_zero()
 }
@@ -287,20 +289,21 @@ pub(crate) fn held_turns<P: Geometry, T: Terms<P>>(
     group: &Group,
     element: usize,
 ) -> ([P::Moment; 2], usize) {
-    let ends = || [group.a, group.b].map(|end| End::new(model, places, end, None));
     match group.law {
         Law::Revolute if T::REVOLUTES => {
             let Some(revolute) = model.revolutes.get(element) else {
                 return ([P::Moment::ZERO; 2], 0);
             };
-            let lever = ends()[0].to_world(revolute.levers[0]);
-            (unit(lever).normals().map(|n| lever.cross(n)), 2)
+            let lever = End::new(model, places, group.a, None).to_world(revolute.levers[0]);
+            let [m, n] = unit(lever).normals();
+            ([lever.cross(m), lever.cross(n)], 2)
         }
         Law::Universal if T::UNIVERSALS => {
             let Some(universal) = model.universals.get(element) else {
                 return ([P::Moment::ZERO; 2], 0);
             };
-            let [a, b] = ends();
+            let a = End::new(model, places, group.a, None);
+            let b = End::new(model, places, group.b, None);
             ([axis_error(universal, [&a, &b]).gradient, P::Moment::ZERO], 1)
         }
         _ => ([P::Moment::ZERO; 2], 0),

@@ -49,10 +49,12 @@ pub(crate) use prepare::prepare;
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths, strengths_of_joints};
 
+use core::marker::PhantomData;
+
 use crate::body::BodyState;
 use crate::damping::kick::Kick;
 use crate::damping::moving::Moving;
-use crate::damping::pair::Pair;
+use crate::damping::pair::{Damper, Pair};
 use crate::elements::clearance;
 use crate::elements::torsion_spring::TorsionSpring;
 use crate::geometry::Geometry;
@@ -62,7 +64,7 @@ use crate::pose::{
     CountOf, End, MAX_ARMS, Placed, Places, Spot, held_turns, placed, torsion_angle_of,
 };
 use crate::real::{Mask as _, Real};
-use crate::space::{Linear as _, Vector as _};
+use crate::space::{Linear as _, Space, Vector as _};
 
 /// How a scheme treats dampers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -181,9 +183,8 @@ fn sweep_group<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
             continue;
         }
         let damper = sweep.damper::<REVERSE>(coefficient, share);
-        each_direction::<P, T, REVERSE>(model, places, &element, |direction| {
-            pair.damp::<P, K>(&direction, damper, idle);
-        });
+        let mut pulse = Pulse::<P, K> { pair: &mut pair, damper, idle, kick: PhantomData };
+        each_direction::<P, T, REVERSE>(model, places, &element, &mut pulse);
     }
     pair.store::<P>(moving);
 }
@@ -203,20 +204,48 @@ fn new_pair<P: Geometry, T: Terms<P>, K: Kick<P>>(
     Pair::new(model, ends.map(BodyIndex::row), moving, rate, &sweep.kick)
 }
 
+/// Visits directions. Not every visitor is a closure: a closure is not inlined at will, and a step in lanes is compiled for
+/// more target features than a closure of its own would be.
+trait DirectionVisitor<S: Space> {
+    fn visit(&mut self, direction: &Direction<S>);
+}
+
+impl<S: Space, F: FnMut(&Direction<S>)> DirectionVisitor<S> for F {
+    #[inline(always)]
+    fn visit(&mut self, direction: &Direction<S>) {
+        self(direction);
+    }
+}
+
+/// The damper of one element on its pair.
+struct Pulse<'s, P: Geometry, K> {
+    pair: &'s mut Pair<P::Space>,
+    damper: Damper<P::Real>,
+    idle: <P::Real as Real>::Mask,
+    kick: PhantomData<K>,
+}
+
+impl<P: Geometry, K: Kick<P>> DirectionVisitor<P::Space> for Pulse<'_, P, K> {
+    #[inline(always)]
+    fn visit(&mut self, direction: &Direction<P::Space>) {
+        self.pair.damp::<P, K>(direction, self.damper, self.idle);
+    }
+}
+
 /// The directions in which an element's damper acts, one after the other.
 #[inline(always)]
 fn each_direction<P: Geometry, T: Terms<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     element: &Placed<'_, P::Vector>,
-    mut visit: impl FnMut(Direction<P::Space>),
+    visitor: &mut impl DirectionVisitor<P::Space>,
 ) {
     let group = element.group;
     let Some((mut directions, count)) = model.damped(group.law, &element.deformation) else {
         return;
     };
     if (T::REVOLUTES || T::UNIVERSALS) && REVERSE {
-        each_turn::<P, T, REVERSE>(model, places, element, &mut visit);
+        each_turn::<P, T, REVERSE>(model, places, element, visitor);
     }
     if REVERSE && count > 1 {
         directions.swap(0, count - 1);
@@ -226,10 +255,10 @@ fn each_direction<P: Geometry, T: Terms<P>, const REVERSE: bool>(
             moment(places, group.a, element.arm_a.cross(along)),
             moment(places, group.b, element.arm_b.cross(along)),
         ];
-        visit(Direction { along, moments });
+        visitor.visit(&Direction { along, moments });
     }
     if (T::REVOLUTES || T::UNIVERSALS) && !REVERSE {
-        each_turn::<P, T, REVERSE>(model, places, element, &mut visit);
+        each_turn::<P, T, REVERSE>(model, places, element, visitor);
     }
 }
 
@@ -239,7 +268,7 @@ fn each_turn<P: Geometry, T: Terms<P>, const REVERSE: bool>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     element: &Placed<'_, P::Vector>,
-    visit: &mut impl FnMut(Direction<P::Space>),
+    visitor: &mut impl DirectionVisitor<P::Space>,
 ) {
     let group = element.group;
     let (mut turns, count) = held_turns(model, places, group, element.index);
@@ -248,7 +277,7 @@ fn each_turn<P: Geometry, T: Terms<P>, const REVERSE: bool>(
     }
     for turn in turns.into_iter().take(count) {
         let moments = [moment(places, group.a, turn), moment(places, group.b, turn)];
-        visit(Direction { along: P::Vector::ZERO, moments });
+        visitor.visit(&Direction { along: P::Vector::ZERO, moments });
     }
 }
 

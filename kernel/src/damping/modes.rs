@@ -7,8 +7,8 @@
 //! rotations, Hestenes 1958). Joints between the same two bodies have common modes. Between a body and the ground the
 //! modes stay orthogonal; between two bodies only up to the rotation of the bodies' inertias.
 
-use crate::damping::each_direction;
 use crate::damping::mode::{DampingMode, Kind, Stop};
+use crate::damping::{Direction, each_direction};
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -137,7 +137,7 @@ pub(crate) fn find<P: Geometry, T: Terms<P>>(
                 continue;
             };
             let root = coefficient.sqrt();
-            each_direction::<P, T, false>(model, places, &element, |direction| {
+            let mut insert = |direction: &Direction<_>| {
                 let [a, b] = direction.moments;
                 let (moment, other) = if ends[0] == group.b { (b, a) } else { (a, b) };
                 let along = match places.frames.get(ends[0].row()) {
@@ -146,7 +146,8 @@ pub(crate) fn find<P: Geometry, T: Terms<P>>(
                 };
                 let mode = DampingMode { along, moment, other, ..DampingMode::default() };
                 metric.insert(shared, here, mode.scaled(root));
-            });
+            };
+            each_direction::<P, T, false>(model, places, &element, &mut insert);
         }
         metric.finish(shared, h);
         metric.finish(here, h);

@@ -151,9 +151,10 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                     let (_, turns) = held_turns(model, places, group, element.index);
                     let count = directions.map_or(1, |(_, count)| count + turns);
                     let part = one / P::Real::from_i32(count as i32);
-                    each_direction::<P, T, false>(model, places, &element, |direction| {
-                        visit(first + i, part, coefficient, &direction);
-                    });
+                    let mut each = |direction: &Direction<_>| {
+                        visit(first + i, part, coefficient, direction);
+                    };
+                    each_direction::<P, T, false>(model, places, &element, &mut each);
                 }
             }
             Mount::Torsion(row) => {

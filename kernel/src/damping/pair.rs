@@ -119,6 +119,21 @@ impl<S: Space> Side<S> {
     }
 }
 
+/// What a pair opposes to an impulse.
+struct Met<S: Space> {
+    /// The direction.
+    along: S::Vector,
+    /// Changes of angular velocity per impulse, of the first body and of the second.
+    responses: [S::Moment; 2],
+    /// 1/μ.
+    inverse: S::Real,
+    /// \[m/s\] or \[rad/s\] the rate, and the part of it that is the kick's.
+    rate: S::Real,
+    kick: S::Real,
+    /// The lanes without an impulse.
+    idle: <S::Real as Real>::Mask,
+}
+
 /// The two bodies of a pair during its dampers' impulses. Impulses are summed separately from the velocities, which are
 /// rounded once per pair, not once per damper: a fast body's velocity in single precision cannot resolve the impulse of
 /// a single damper of its joint.
@@ -193,11 +208,10 @@ impl<S: Space> Pair<S> {
         damper: Damper<S::Real>,
         idle: <S::Real as Real>::Mask,
     ) {
-        self.push::<P, K>(direction, idle, None, |inverse, rate, kick| {
-            let (x, impulse_per_rate) = damper.impulse_per_rate(inverse);
-            let rate = if K::KNOWN { rate - kick * damper.unmet(x) } else { rate };
-            impulse_per_rate * rate
-        });
+        let Some(met) = self.meet::<P, K>(direction, idle, None) else { return };
+        let (x, impulse_per_rate) = damper.impulse_per_rate(met.inverse);
+        let rate = if K::KNOWN { met.rate - met.kick * damper.unmet(x) } else { met.rate };
+        self.push(&met, impulse_per_rate * rate, None);
     }
 
     /// Applies one damper towards a target rate, its impulse within the bounds \[N·s\] and, if it brakes, at most the
@@ -213,26 +227,27 @@ impl<S: Space> Pair<S> {
         limits: Limits<S::Real>,
         inner: Option<(S::Real, &mut Inner<S::Real>)>,
     ) {
-        self.push::<P, K>(direction, S::Real::mask(false), inner, |inverse, rate, kick| {
-            damper.impulse(K::KNOWN, [inverse, rate, kick], limits)
-        });
+        let known = inner.as_ref().map(|(part, inner)| (*part, &**inner));
+        let idle = S::Real::mask(false);
+        let Some(met) = self.meet::<P, K>(direction, idle, known) else { return };
+        let impulse = damper.impulse(K::KNOWN, [met.inverse, met.rate, met.kick], limits);
+        self.push(&met, impulse, inner);
     }
 
-    /// Applies an impulse along a direction, `(1/μ, rate, the kick's rate) => impulse`, except in lanes where it is
-    /// idle; also on a law's internal degree of freedom.
+    /// What the pair, and a law's internal degree of freedom, oppose to an impulse along a direction; `None` where every
+    /// lane is idle.
     #[inline(always)]
-    fn push<
+    fn meet<
         P: Geometry<Space = S, Real = S::Real, Vector = S::Vector, Moment = S::Moment>,
         K: Kick<P>,
     >(
-        &mut self,
+        &self,
         direction: &Direction<S>,
         idle: <S::Real as Real>::Mask,
-        inner: Option<(S::Real, &mut Inner<S::Real>)>,
-        impulse: impl FnOnce(S::Real, S::Real, S::Real) -> S::Real,
-    ) {
+        inner: Option<(S::Real, &Inner<S::Real>)>,
+    ) -> Option<Met<S>> {
         let Direction { along: u, moments: [moment_a, moment_b] } = *direction;
-        let [a, b] = &mut self.sides;
+        let [a, b] = &self.sides;
         let mut inverse = u.dot(u) * self.inverse_mass;
         let mut rate = u.dot(self.velocity - self.impulse * self.inverse_mass);
         let mut kick = if K::KNOWN { u.dot(self.kick) } else { S::Real::ZERO };
@@ -253,20 +268,30 @@ impl<S: Space> Pair<S> {
                 kick = kick - moment_a.dot(a.kick);
             }
         }
-        if let Some((part, inner)) = &inner {
-            inverse = inverse + *part * (*part * inner.inverse_inertia);
-            rate = rate + *part * inner.rate;
+        if let Some((part, inner)) = inner {
+            inverse = inverse + part * (part * inner.inverse_inertia);
+            rate = rate + part * inner.rate;
             if K::KNOWN {
-                kick = kick + *part * inner.kick;
+                kick = kick + part * inner.kick;
             }
         }
         // Without a direction (coincident points) there is no impulse.
         let idle = idle | inverse.equals(S::Real::ZERO);
-        if idle.all() {
-            return;
-        }
-        let impulse = impulse(inverse, rate, kick);
-        self.impulse = self.impulse + (u * impulse).unless(idle);
+        let responses = [response_a, response_b];
+        (!idle.all()).then_some(Met { along: u, responses, inverse, rate, kick, idle })
+    }
+
+    /// Applies an impulse, except in lanes where it is idle.
+    #[inline(always)]
+    fn push(
+        &mut self,
+        met: &Met<S>,
+        impulse: S::Real,
+        inner: Option<(S::Real, &mut Inner<S::Real>)>,
+    ) {
+        let Met { along, responses: [response_a, response_b], idle, .. } = *met;
+        let [a, b] = &mut self.sides;
+        self.impulse = self.impulse + (along * impulse).unless(idle);
         if let Some((part, inner)) = inner {
             inner.rate = inner.rate - part * (inner.inverse_inertia * impulse);
         }

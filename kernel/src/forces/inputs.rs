@@ -100,43 +100,39 @@ pub(crate) fn push<P: Geometry, T: Terms<P>>(
         LoadFrame::World => m,
         LoadFrame::Body => End::new(model, places, body, None).moment_to_world(m),
     };
+    let (world, zero) = (BodyIndex::WORLD, P::Moment::ZERO);
     for (input, signal) in model.inputs.iter().zip(places.signals) {
         let value = signal.value;
-        let bodies = bodies_of(model, &input.kind);
-        let zero = P::Moment::ZERO;
-        match input.kind {
+        let (bodies, force_pair) = match input.kind {
             InputKind::Force { body, point, direction, frame } => {
                 let force = turned(body, frame, direction) * value;
                 let (_, arm) = End::new(model, places, body, None).place(&point);
-                let force_pair = ForcePair { force, torque_a: arm.cross(force), torque_b: zero };
-                add(places, wrenches, bodies, &force_pair);
+                ([body, world], ForcePair { force, torque_a: arm.cross(force), torque_b: zero })
             }
             InputKind::Torque { body, axis, frame } => {
                 let torque_a = turned_axis(body, frame, axis) * value;
-                let force_pair = ForcePair { force: P::Vector::ZERO, torque_a, torque_b: zero };
-                add(places, wrenches, bodies, &force_pair);
+                ([body, world], ForcePair { force: P::Vector::ZERO, torque_a, torque_b: zero })
             }
             InputKind::JointTorque { a, b, axes } => {
                 let axis_a = turned_axis(a, LoadFrame::Body, axes[0]);
                 let axis_b = turned_axis(b, LoadFrame::Body, axes[1]);
                 let torque = -(gradient_between(axis_a, axis_b) * value);
-                let force_pair =
-                    ForcePair { force: P::Vector::ZERO, torque_a: torque, torque_b: torque };
-                add(places, wrenches, bodies, &force_pair);
+                let force = P::Vector::ZERO;
+                ([a, b], ForcePair { force, torque_a: torque, torque_b: torque })
             }
             InputKind::JointForce { a, b, point, axis } => {
                 let force = -(turned(a, LoadFrame::Body, axis) * value);
-                let arms = common_point(model, places, [a, b], &point);
-                let [torque_a, torque_b] = arms.map(|arm| arm.cross(force));
-                add(places, wrenches, bodies, &ForcePair { force, torque_a, torque_b });
+                let [arm_a, arm_b] = common_point(model, places, [a, b], &point);
+                let (torque_a, torque_b) = (arm_a.cross(force), arm_b.cross(force));
+                ([a, b], ForcePair { force, torque_a, torque_b })
             }
-            InputKind::Actuator { .. } => {
-                if let Some(force_pair) = actuator(model, places, input.kind, value) {
-                    add(places, wrenches, bodies, &force_pair);
-                }
-            }
-            InputKind::Signal | InputKind::Anchor { .. } => {}
-        }
+            InputKind::Actuator { .. } => match actuator(model, places, input.kind, value) {
+                Some(force_pair) => (bodies_of(model, &input.kind), force_pair),
+                None => continue,
+            },
+            InputKind::Signal | InputKind::Anchor { .. } => continue,
+        };
+        add(places, wrenches, bodies, &force_pair);
     }
 }
 
@@ -148,7 +144,7 @@ fn common_point<P: Geometry, T: Terms<P>>(
     [a, b]: [BodyIndex; 2],
     point: &P::Local,
 ) -> [P::Vector; 2] {
-    let centre = End::new(model, places, a, None).place(&P::local_from_f64([0.0; 3])).0;
+    let centre = End::new(model, places, a, None).place(&P::Local::default()).0;
     let (at, arm) = End::new(model, places, b, None).place(point);
     [P::displacement(&centre, &at), arm]
 }
