@@ -15,8 +15,8 @@ pub const SCHEMES: [&str; 12] = [
     "semi-implicit-euler-joint-wise",
     "leapfrog-joint-wise",
 ];
-/// Those of double precision: compiled from the same text, it takes others to the same.
-pub const DOUBLE: [&str; 2] = ["dbd", "leapfrog"];
+/// Those of double precision: it is compiled from the same text, and three times as large.
+pub const DOUBLE: [&str; 1] = ["leapfrog"];
 /// Models of laws alone.
 pub const LAWFUL: [&str; 2] = ["laws-of-turns", "laws-of-travels"];
 /// Models that are stepped with all of them.
