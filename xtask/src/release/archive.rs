@@ -1,7 +1,7 @@
 //! The archive of `host-sim`: program, libraries, completions, manual pages.
 //!
 //! `program for an older Linux, libraries, module => host-sim-VERSION-x86_64-linux.tar.gz`; unpacked by a stranger it
-//! runs a scene, writes an FMU, a live page and a schema.
+//! runs a scene, writes an FMU, a scene and the page with all scenes for a web host.
 
 use std::fs;
 use std::path::Path;
@@ -56,11 +56,11 @@ pub fn make(folder: &Path) -> Result<()> {
     fs::remove_dir_all(&content).context("cannot remove what was packed")
 }
 
-/// Unpacks the archive in an empty folder and uses what it holds.
+/// Unpacks the archive in an empty folder and uses what it holds; the page of all scenes goes to `playground`.
 ///
 /// # Errors
 /// Where a command fails or writes nothing.
-pub fn try_out(folder: &Path, stranger: &Stranger) -> Result<()> {
+pub fn try_out(folder: &Path, playground: &Path, stranger: &Stranger) -> Result<()> {
     let archive = only(folder, ENDING)?;
     let place = stranger.work().join("archive");
     fs::create_dir_all(&place)?;
@@ -77,10 +77,12 @@ pub fn try_out(folder: &Path, stranger: &Stranger) -> Result<()> {
     host_sim(&["run", "four-bar", "--duration", "20ms", "--quiet"])?;
     host_sim(&["report", "out/four-bar", "--out", "four-bar.mcap"])?;
     host_sim(&["fmu", "cart-pendulum"])?;
-    host_sim(&["play", "four-bar", "--no-open", "--out", "play.html"])?;
+    let page = playground.join("index.html");
+    let page = page.to_str().context("the repository's path is not text")?;
+    host_sim(&["play", "--all", "--no-open", "--out", page])?;
     host_sim(&["new", "scene", "my-crank"])?;
     host_sim(&["check", "my-crank.toml"])?;
-    let written = ["out/four-bar/report.html", "four-bar.mcap", "cart-pendulum.fmu", "play.html"];
+    let written = ["out/four-bar/report.html", "four-bar.mcap", "cart-pendulum.fmu", page];
     for file in written.into_iter().chain(["man/man1/host-sim-run.1"]) {
         let size = fs::metadata(place.join(file)).map_or(0, |metadata| metadata.len());
         if size == 0 {

@@ -31,7 +31,7 @@ use crate::steps::Steps;
 pub enum Part {
     /// The crates of the registry, with `cargo install host-sim` and a new firmware project.
     Crates,
-    /// The archive of host-sim with the libraries of FMUs and live views.
+    /// The archive of host-sim with the libraries of FMUs and live views, and the playground's page.
     Archive,
     /// The wheel of Python.
     Wheel,
@@ -55,7 +55,9 @@ pub fn run(parts: &[Part]) -> Result<()> {
         steps.step("archive: libraries of FMUs", libraries::build);
         steps.step("archive: module of live views", || playground::module(Speed::Full).map(drop));
         steps.step("archive: host-sim", || archive::make(&emptied("archive")?));
-        steps.step("archive: used", || archive::try_out(&folder("archive")?, &stranger));
+        steps.step("archive: used", || {
+            archive::try_out(&folder("archive")?, &emptied("playground")?, &stranger)
+        });
     }
     if wanted(Part::Wheel) {
         steps.step("wheel: built", || wheel::make(&emptied("python")?));
@@ -68,7 +70,7 @@ pub fn run(parts: &[Part]) -> Result<()> {
 /// Sizes of all artefacts, a line each.
 fn table(artefacts: &Path) -> Result<String> {
     let mut lines = Vec::new();
-    for part in ["crates", "archive", "python"] {
+    for part in ["crates", "archive", "playground", "python"] {
         let Ok(files) = fs::read_dir(artefacts.join(part)) else { continue };
         for file in files.filter_map(Result::ok).filter(|entry| entry.path().is_file()) {
             let size = file.metadata()?.len();
