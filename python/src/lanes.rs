@@ -23,9 +23,7 @@ impl Course {
     pub(crate) fn group(&self, plants: &[&Mutex<Instance>], threads: usize) -> usize {
         let first = plants.first().and_then(|plant| plant.try_lock().ok());
         match first {
-            // Damper passes are not compiled for wide registers throughout: plants with
-            // dampers gain little or lose.
-            Some(first) if self.every >= SHORTEST && first.scene().model.dampers.is_empty() => {
+            Some(first) if self.every >= SHORTEST => {
                 Lockstep::lanes(&first, plants.len().div_ceil(threads.max(1)))
             }
             _ => 1,
