@@ -110,6 +110,7 @@ pub use lint::{OneSided, Severity, Warning, one_sided_springs, warnings, warning
 pub use nearest::nearest;
 pub use origin::Setting;
 pub use planar::Planar;
+pub use read::SceneText;
 pub use readout::ReadoutInfo;
 pub use reduction::reduced;
 pub use runtime::{SceneModel, rounded, widen};

@@ -5,6 +5,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use toml::de::DeTable;
+
 use crate::assembly::{Assembly, Resolved};
 use crate::error::{SceneError, Source};
 use crate::file_lines::FileLines;
@@ -48,6 +50,35 @@ pub(crate) const KEYS: &[&str] = &[
     "readout",
     "geometry",
 ];
+
+/// The parsed text of a scene, to be read with many sets of changes.
+#[derive(Clone, Debug)]
+pub struct SceneText<'t> {
+    text: &'t str,
+    file: &'t str,
+    document: DeTable<'t>,
+}
+
+impl<'t> SceneText<'t> {
+    /// Parses a text; `file` is its name in messages.
+    ///
+    /// # Errors
+    /// Where it is not TOML.
+    pub fn parse(text: &'t str, file: &'t str) -> Result<Self, SceneError> {
+        Ok(Self { text, file, document: text::parse(Source::of(file, text))? })
+    }
+
+    /// The scene with changes, as [`Scene::parse_with`] reads it.
+    ///
+    /// # Errors
+    /// As [`Scene::parse_with`].
+    pub fn scene(&self, changes: &[impl AsRef<str>]) -> Result<Scene, SceneError> {
+        let all = Changes::read(self.text, changes)?;
+        let document = self.document.clone();
+        Scene::read_document(document, self.file, &all, None, |_, _, _| Ok(()))
+            .map(|(scene, ())| scene)
+    }
+}
 
 impl Scene {
     /// Reads a scene file.
@@ -141,10 +172,19 @@ impl Scene {
         log: Option<&Log>,
         then: impl FnOnce(&Self, &Table<'_>, &BTreeMap<usize, Resolved>) -> Result<T, SceneError>,
     ) -> Result<(Self, T), SceneError> {
-        let given = changes.iter().map(|change| change.as_ref().to_owned()).collect();
-        let changes = Changes::read(text, changes)?;
+        let all = Changes::read(text, changes)?;
+        let document = text::parse(all.source(file))?;
+        Self::read_document(document, file, &all, log, then)
+    }
+
+    fn read_document<'t, T>(
+        mut document: DeTable<'t>,
+        file: &'t str,
+        changes: &'t Changes,
+        log: Option<&Log>,
+        then: impl FnOnce(&Self, &Table<'_>, &BTreeMap<usize, Resolved>) -> Result<T, SceneError>,
+    ) -> Result<(Self, T), SceneError> {
         let source = changes.source(file);
-        let mut document = text::parse(source)?;
         let before = match changes.is_empty() {
             true => None,
             false => parameters::read(&text::root(source, &document), None).ok(),
@@ -214,7 +254,7 @@ impl Scene {
             written_angles: Vec::new(),
             derived,
             parameters: parameters::all(&root, &scope),
-            changes: given,
+            changes: changes.given.clone(),
             changed,
             raw_names,
             law_names: laws.labels,

@@ -42,6 +42,8 @@ pub(crate) struct Changes {
     /// Length of the file's text.
     own: usize,
     changes: Vec<Change>,
+    /// The changes as given.
+    pub(crate) given: Vec<String>,
 }
 
 struct Change {
@@ -56,7 +58,9 @@ struct Change {
 impl Changes {
     /// Reads changes, each `PATH=VALUE`.
     pub(crate) fn read(text: &str, changes: &[impl AsRef<str>]) -> Result<Self, SceneError> {
-        let mut whole = Self { text: text.to_owned(), own: text.len(), changes: Vec::new() };
+        let given = changes.iter().map(|change| change.as_ref().to_owned()).collect();
+        let (text, own) = (text.to_owned(), text.len());
+        let mut whole = Self { text, own, changes: Vec::new(), given };
         for written in changes.iter().map(AsRef::as_ref) {
             let source = Source::of(Source::CHANGE, written);
             let (steps, value) = path::read(source)?;

@@ -31,7 +31,7 @@ pub struct Damage {
 /// Rows of finished cases.
 #[derive(Debug, Default)]
 pub struct Store {
-    rows: HashMap<Key, String>,
+    rows: HashMap<Key, Vec<String>>,
     /// Files that were damaged.
     pub damages: Vec<Damage>,
     /// Cases of which two different rows were found: one of two machines computed wrongly.
@@ -94,11 +94,16 @@ impl Store {
     fn take(&mut self, path: &Path, mend: bool) -> io::Result<u64> {
         let bytes = file::read(path, u64::MAX)?;
         let Lines { whole, damaged, length } = Lines::of(&bytes);
-        for (key, record) in &whole {
+        // One reader for all lines: its tables are as large as a row.
+        let records: String = whole.iter().map(|(_, record)| format!("{record}\n")).collect();
+        let mut options = csv::ReaderBuilder::new();
+        let reader = options.has_headers(false).flexible(true).from_reader(records.as_bytes());
+        for ((key, _), record) in whole.iter().zip(reader.into_records()) {
+            let cells: Vec<String> = record?.iter().map(str::to_owned).collect();
             match self.rows.get(key) {
-                Some(known) if known != record => self.doubtful.push(*key),
+                Some(known) if *known != cells => self.doubtful.push(*key),
                 Some(_) => {}
-                None => drop(self.rows.insert(*key, (*record).to_owned())),
+                None => drop(self.rows.insert(*key, cells)),
             }
         }
         if damaged == 0 {
@@ -124,11 +129,8 @@ impl Store {
 
     /// The cells of a case that is finished.
     #[must_use]
-    pub fn get(&self, key: Key) -> Option<Vec<String>> {
-        let mut reader = csv::ReaderBuilder::new();
-        let reader = reader.has_headers(false).from_reader(self.rows.get(&key)?.as_bytes());
-        let record = reader.into_records().next()?.ok()?;
-        Some(record.iter().map(str::to_owned).collect())
+    pub fn get(&self, key: Key) -> Option<&[String]> {
+        self.rows.get(&key).map(Vec::as_slice)
     }
 
     /// Whether a case is finished.
@@ -157,7 +159,7 @@ impl Store {
             }
             own.length += line.len() as u64;
         }
-        self.rows.insert(key, record);
+        self.rows.insert(key, cells.to_vec());
         Ok(())
     }
 }
@@ -289,7 +291,7 @@ mod tests {
         let store = Store::read(folder.path()).unwrap();
         assert!(store.damages.is_empty() && store.doubtful.is_empty());
         for n in (0..15).chain(20..22) {
-            assert_eq!(store.get(Key(n)), Some(cells(n)), "{n}");
+            assert_eq!(store.get(Key(n)), Some(&cells(n)[..]), "{n}");
         }
         assert!(!store.holds(Key(15)) && !store.holds(Key(22)));
         assert!(Store::read(&folder.path().join("none")).unwrap().get(Key(1)).is_none());
@@ -313,7 +315,7 @@ mod tests {
             for n in 0..3 {
                 assert_eq!(store.holds(Key(n)), n < there, "{end}");
             }
-            assert_eq!(store.get(Key(7)), Some(cells(7)));
+            assert_eq!(store.get(Key(7)), Some(&cells(7)[..]));
         }
     }
 
@@ -338,7 +340,7 @@ mod tests {
             assert_eq!(fs::read(&aside).unwrap(), bytes);
             assert_eq!([0, 1, 2].map(|n| store.holds(Key(n))), [true, false, true]);
             let again = Store::read(folder.path()).unwrap();
-            assert!(again.damages.is_empty() && again.get(Key(2)) == Some(cells(2)));
+            assert!(again.damages.is_empty() && again.get(Key(2)) == Some(&cells(2)[..]));
             fs::remove_file(aside).unwrap();
         }
         assert_eq!(names(folder.path()), ["1-of-1.lock", "1-of-1.rows"]);

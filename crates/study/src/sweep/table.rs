@@ -26,10 +26,10 @@ pub struct Table {
 impl Table {
     /// The table of a sweep, from the cells of each case's row.
     #[must_use]
-    pub fn new(
+    pub fn new<'r>(
         spec: &Spec,
         columns: &[Column],
-        row: &dyn Fn(usize) -> Option<Vec<String>>,
+        row: &dyn Fn(usize) -> Option<&'r [String]>,
     ) -> Self {
         let mut header = vec!["case".to_owned()];
         let units: Vec<Option<String>> = spec.axes.iter().map(Axis::unit).collect();

@@ -8,7 +8,7 @@ use std::{io, iter};
 
 use dbd_plant::plant::{check_extents, check_inputs, check_step, check_stiffness};
 use dbd_plant::{FailedRun, Frequencies, Method, Plan};
-use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS, Scene, SceneError};
+use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS, Scene, SceneError, SceneText};
 use dbd_study::sweep::check::{Misfit, Trial};
 use dbd_study::sweep::columns::Column;
 use dbd_study::sweep::row::{OK, Row};
@@ -22,14 +22,12 @@ use crate::simulate::{Ending, Member, Observer, Sample, lanes, simulate, simulat
 #[derive(Clone, Copy, Debug)]
 pub struct Bench<'b> {
     /// The scene's text.
-    pub text: &'b str,
-    /// Its name in messages.
-    pub file: &'b str,
+    pub text: &'b SceneText<'b>,
 }
 
 impl Trial for Bench<'_> {
     fn scene(&self, changes: &[String]) -> Result<Scene, SceneError> {
-        Scene::parse_with(self.text, self.file, changes)
+        self.text.scene(changes)
     }
 
     fn plan(&self, scene: &Scene, method: &Method) -> Result<(), Misfit> {

@@ -7,10 +7,11 @@ use std::path::Path;
 
 use dbd_kernel::GeneralizedAlpha;
 use dbd_plant::Method;
+use dbd_scene::SceneText;
 use dbd_study::command::quoted;
 use dbd_study::sweep::Spec;
 use dbd_study::sweep::cases::Cases;
-use dbd_study::sweep::check::{CheckError, Trial as _, check};
+use dbd_study::sweep::check::{CheckError, check};
 use dbd_study::sweep::columns::{Column, columns};
 use dbd_study::sweep::key::{Digest, Key};
 use dbd_study::sweep::row::{self, Row};
@@ -70,8 +71,9 @@ impl Sweep {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let file = SceneFile::new(stem, place.display().to_string(), &spec.source.text);
         let name = format!("{}.toml", found.file.stem);
-        let bench = Bench { text: &found.text, file: &name };
-        let scene = check(&spec, &bench).map_err(|error| match error {
+        let text =
+            SceneText::parse(&found.text, &name).map_err(|error| SweepError::Load(error.into()))?;
+        let scene = check(&spec, &Bench { text: &text }).map_err(|error| match error {
             CheckError::Refused(refusal) => SweepError::from(refusal),
             CheckError::Scene(error) => SweepError::Load(error.into()),
         })?;
@@ -83,6 +85,15 @@ impl Sweep {
         Ok(Self { spec, file, found, called, name, columns, base })
     }
 
+    /// The parsed text of its scene.
+    ///
+    /// # Errors
+    /// None for a sweep that was loaded.
+    pub fn text(&self) -> Result<SceneText<'_>, SweepError> {
+        SceneText::parse(&self.found.text, &self.name)
+            .map_err(|error| SweepError::Load(error.into()))
+    }
+
     /// Whether a row has the cells of this sweep's columns.
     #[must_use]
     pub fn fits(&self, cells: &[String]) -> bool {
@@ -91,9 +102,9 @@ impl Sweep {
 
     /// The rows of cases, as many at once as [`Self::parts`] puts together.
     #[must_use]
-    pub fn run(&self, cases: &[usize]) -> Vec<Row> {
+    pub fn run(&self, text: &SceneText<'_>, cases: &[usize]) -> Vec<Row> {
         let all = Cases::new(&self.spec);
-        let bench = Bench { text: &self.found.text, file: &self.name };
+        let bench = Bench { text };
         // Every combination was checked.
         let case = |case: &usize| (all.changes(*case), all.method(*case).unwrap_or_default());
         bench.run(&cases.iter().map(case).collect::<Vec<_>>(), &self.columns)
@@ -130,10 +141,9 @@ impl Sweep {
     ///
     /// # Errors
     /// Where it cannot be written.
-    pub fn report(&self, case: usize, folder: &Path) -> Result<(), RunError> {
+    pub fn report(&self, text: &SceneText<'_>, case: usize, folder: &Path) -> Result<(), RunError> {
         let cases = Cases::new(&self.spec);
-        let bench = Bench { text: &self.found.text, file: &self.name };
-        let Ok(scene) = bench.scene(&cases.changes(case)) else { return Ok(()) };
+        let Ok(scene) = text.scene(&cases.changes(case)) else { return Ok(()) };
         let stem = format!("case-{:06}", case + 1);
         let file = SceneFile { stem, ..self.found.file.clone() };
         let out = Destination { out: folder.join("reports"), file, overwrite: true };

@@ -77,6 +77,7 @@ pub fn sweep(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<SweepOutcome, SweepError> {
     let sweep = Sweep::load(catalogue, &arguments.spec)?;
+    let text = sweep.text()?;
     let cases = Cases::new(&sweep.spec);
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
     let folder = SweepFolder::of(&arguments.out, &sweep.file, arguments.overwrite)?;
@@ -104,19 +105,19 @@ pub fn sweep(
             Ok(())
         };
         let numbers: Vec<usize> = (0..parts.len()).collect();
-        on_all(&numbers, threads, &|part| sweep.run(&parts[part]), &mut take)
+        on_all(&numbers, threads, &|part| sweep.run(&text, &parts[part]), &mut take)
             .map_err(SweepError::Write)?;
     }
     if arguments.reports {
         let mut take = |_, written: Result<(), RunError>| written;
-        on_all(&own, threads, &|case| sweep.report(case, &folder.place), &mut take)?;
+        on_all(&own, threads, &|case| sweep.report(&text, case, &folder.place), &mut take)?;
     }
     let cells = |case: usize| store.get(keys[case]).filter(|cells| sweep.fits(cells));
     let missing = own.iter().copied().filter(|case| cells(*case).is_none()).collect();
     let mut outcome = SweepOutcome::new(&sweep, &store, shard, ran, missing);
     for case in own {
         if let Some(cells) = cells(case) {
-            outcome.count(case, &cells);
+            outcome.count(case, cells);
         }
     }
     if !shard.is_whole() {
