@@ -228,6 +228,18 @@ struct Pulse<'s, P: Geometry, K> {
 impl<P: Geometry, K: Kick<P>> DirectionVisitor<P::Space> for Pulse<'_, P, K> {
     #[inline(always)]
     fn visit(&mut self, direction: &Direction<P::Space>) {
+        if P::Real::LANES == 1 { self.act_apart(direction) } else { self.act_here(direction) }
+    }
+}
+
+impl<P: Geometry, K: Kick<P>> Pulse<'_, P, K> {
+    #[inline]
+    fn act_apart(&mut self, direction: &Direction<P::Space>) {
+        self.act_here(direction);
+    }
+
+    #[inline(always)]
+    fn act_here(&mut self, direction: &Direction<P::Space>) {
         self.pair.damp::<P, K>(direction, self.damper, self.idle);
     }
 }
