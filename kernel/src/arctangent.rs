@@ -9,7 +9,7 @@ use crate::real::{Real, choose};
 /// The angle of the point (x, y), rad; 0 at the origin.
 #[inline(always)]
 pub fn atan2<R: Real>(y: R, x: R) -> R {
-    if R::LANES == 1 { atan2_apart(y, x) } else { atan2_here(y, x) }
+    if R::ONE_LANE { atan2_apart(y, x) } else { atan2_here(y, x) }
 }
 
 #[inline]

@@ -20,7 +20,7 @@ use crate::space::{Linear as _, Moment as _, Space as _, Vector};
 /// Computes the frames of all bodies.
 #[inline(always)]
 pub(crate) fn place_bodies<P: Geometry>(bodies: &[BodyState<P>], frames: &mut [P::Frame]) {
-    if P::Real::LANES == 1 { place_apart(bodies, frames) } else { place_here(bodies, frames) }
+    if P::Real::ONE_LANE { place_apart(bodies, frames) } else { place_here(bodies, frames) }
 }
 
 #[inline]
@@ -358,7 +358,7 @@ pub(crate) fn torsion_angle_of<P: Geometry>(
     bodies: &[BodyState<P>],
     turns: CountOf<P>,
 ) -> Option<TorsionAngle<P::Space>> {
-    if P::Real::LANES == 1 {
+    if P::Real::ONE_LANE {
         torsion_angle_apart(spring, bodies, turns)
     } else {
         torsion_angle_here(spring, bodies, turns)

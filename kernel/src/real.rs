@@ -87,6 +87,9 @@ pub trait Real:
 {
     /// The number of lanes.
     const LANES: usize;
+    /// Whether it is one number. A branch on a constant, unlike one on a comparison, is decided before code is inlined,
+    /// so that the other side costs no compile time.
+    const ONE_LANE: bool = Self::LANES == 1;
     /// The result of its comparisons.
     type Mask: Mask;
     /// A revolution count, one per lane.
@@ -211,7 +214,7 @@ pub trait Real:
 macro_rules! choose {
     ($real:ty, $mask:expr, $then:expr, $otherwise:expr) => {{
         let mask = $mask;
-        if <$real as $crate::real::Real>::LANES == 1 {
+        if <$real as $crate::real::Real>::ONE_LANE {
             if $crate::real::Mask::any(mask) { $then } else { $otherwise }
         } else {
             let (then, otherwise) = ($then, $otherwise);

@@ -51,7 +51,7 @@ pub(crate) fn turn_freely<P: Geometry>(
 ) {
     let zero = P::Real::ZERO;
     let w = P::spin(rate).in_space();
-    if P::Real::LANES == 1 && w.x == zero && w.y == zero {
+    if P::Real::ONE_LANE && w.x == zero && w.y == zero {
         // In planar motion only the rotation about z is nonzero, so it equals all five.
         if w.z != zero {
             let turn = Turn::by(time * w.z);
@@ -240,7 +240,7 @@ fn turn_about<P: Geometry, const AXIS: usize>(
 /// Restores the start in resting lanes. Without resting lanes nothing is stored: masked stores are slow on x86.
 #[inline(always)]
 fn keep<P: Geometry>(orientation: &mut P::Orientation, resting: MaskOf<P>, start: &P::Orientation) {
-    if P::Real::LANES == 1 || resting.any() {
+    if P::Real::ONE_LANE || resting.any() {
         P::Orientation::keep(orientation, resting, start);
     }
 }

@@ -131,7 +131,7 @@ pub(crate) fn sample<P: Geometry>(
 ) -> bool {
     if inputs.is_empty() || knots.is_empty() {
         false
-    } else if P::Real::LANES == 1 {
+    } else if P::Real::ONE_LANE {
         sample_apart(inputs, knots, steps, at, signals)
     } else {
         sample_here(inputs, knots, steps, at, signals)

@@ -70,7 +70,7 @@ impl<R: Real> Vec3<R> {
     /// least aligned with it (ties: x, y, z).
     #[inline(always)]
     pub fn normals(self) -> [Self; 2] {
-        if R::LANES == 1 { self.normals_apart() } else { self.normals_here() }
+        if R::ONE_LANE { self.normals_apart() } else { self.normals_here() }
     }
 
     #[inline]

@@ -78,7 +78,7 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
         mut inner: Option<&mut Inner<P::Real>>,
     ) {
         let idle = |damper: &Damper<P>| damper.coefficient == P::Real::ZERO;
-        if P::Real::LANES == 1 && dampers.iter().all(idle) {
+        if P::Real::ONE_LANE && dampers.iter().all(idle) {
             return;
         }
         let (model, sweep) = (self.model, self.sweep);
@@ -89,7 +89,7 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
             let i = if REVERSE { count - 1 - i } else { i };
             let (Some(damper), Some(share)) = (dampers.get(i), shares.get(i)) else { break };
             // Its impulse is 0.
-            if P::Real::LANES == 1 && idle(damper) {
+            if P::Real::ONE_LANE && idle(damper) {
                 continue;
             }
             let bounds = damper.bounds().map(|bound| bound * sweep.h);

@@ -102,7 +102,7 @@ pub(crate) fn sweep<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool>(
     bodies: &mut [BodyState<P>],
     sums: &mut [P::PassSum],
 ) {
-    if P::Real::LANES == 1 {
+    if P::Real::ONE_LANE {
         sweep_apart::<P, T, K, REVERSE>(model, sweep, laws, bodies, sums);
     } else {
         sweep_here::<P, T, K, REVERSE>(model, sweep, laws, bodies, sums);
@@ -228,7 +228,7 @@ struct Pulse<'s, P: Geometry, K> {
 impl<P: Geometry, K: Kick<P>> DirectionVisitor<P::Space> for Pulse<'_, P, K> {
     #[inline(always)]
     fn visit(&mut self, direction: &Direction<P::Space>) {
-        if P::Real::LANES == 1 { self.act_apart(direction) } else { self.act_here(direction) }
+        if P::Real::ONE_LANE { self.act_apart(direction) } else { self.act_here(direction) }
     }
 }
 

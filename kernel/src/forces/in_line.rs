@@ -4,6 +4,8 @@
 //! for most mechanisms, whose joints are all revolutes. Whether a model may be uniform is known at compile time from
 //! its kinds of element; a model of every kind, whose size is known at run time, takes the general path.
 
+use core::marker::PhantomData;
+
 use crate::body::BodyState;
 use crate::elements::element::Law;
 use crate::forces::force_pair::{Dampers, ForcePair, Wrench, apply};
@@ -28,9 +30,11 @@ const fn kind<P: Geometry, T: Terms<P>>(planar: bool) -> Option<(Law, usize, usi
     }
 }
 
-/// Whether a model with these kinds of element may be uniform.
-pub(super) const fn may_be<P: Geometry, T: Terms<P>>() -> bool {
-    kind::<P, T>(P::Space::PLANAR).is_some()
+/// Whether a model with these kinds of element may be uniform: a constant, so that the code of others is not compiled.
+pub(super) struct MayBe<P, T>(PhantomData<(P, T)>);
+
+impl<P: Geometry, T: Terms<P>> MayBe<P, T> {
+    pub(super) const UNIFORM: bool = kind::<P, T>(P::Space::PLANAR).is_some();
 }
 
 /// Whether the groups of a model are uniform, each on a body.
@@ -47,7 +51,8 @@ pub(crate) fn are_in_line<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>) 
     model.groups.iter().enumerate().all(is_next)
 }
 
-/// Adds the records of the groups of a model that [`are_in_line`].
+/// Adds the records of the groups of a model that [`are_in_line`]. Branches on constants, not a match on [`kind`]: what a
+/// model does not have is not compiled.
 #[inline(always)]
 pub(super) fn add<P: Geometry, T: Terms<P>, D: Dampers>(
     model: &ModelRef<'_, P, T>,
@@ -56,16 +61,16 @@ pub(super) fn add<P: Geometry, T: Terms<P>, D: Dampers>(
     wrenches: &mut [Wrench<P::Space>],
 ) {
     let at = (places, bodies);
-    match kind::<P, T>(P::Space::PLANAR) {
-        Some((Law::Tsda, 1, _)) => add_triples::<P, T, D, 1, 2, 3, 2>(model, rests, at, wrenches),
-        Some((Law::Tsda, _, _)) => add_triples::<P, T, D, 2, 3, 5, 6>(model, rests, at, wrenches),
-        Some((Law::PointBushing, _, _)) => {
-            add_pairs::<P, T, D, _>(model, model.bushings, at, wrenches);
+    if T::TSDAS {
+        if P::Space::PLANAR {
+            add_triples::<P, T, D, 1, 2, 3, 2>(model, rests, at, wrenches);
+        } else {
+            add_triples::<P, T, D, 2, 3, 5, 6>(model, rests, at, wrenches);
         }
-        Some((Law::Revolute, _, _)) => {
-            add_pairs::<P, T, D, _>(model, model.revolutes, at, wrenches);
-        }
-        _ => {}
+    } else if T::BUSHINGS {
+        add_pairs::<P, T, D, _>(model, model.bushings, at, wrenches);
+    } else {
+        add_pairs::<P, T, D, _>(model, model.revolutes, at, wrenches);
     }
 }
 

@@ -29,6 +29,7 @@ pub use force_pair::{
     At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, ForcePair, Wrench,
 };
 pub(crate) use force_pair::{Memories, apply};
+use in_line::MayBe;
 pub(crate) use in_line::are_in_line;
 pub(crate) use inputs::{Unpushed, push, take_back, with_actuators};
 pub(crate) use triples::find_rests;
@@ -141,7 +142,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms<P>, D: Dampers>(
     let weight =
         if T::GRAVITY && !P::HAS_GRAVITY_STEP { model.gravity.first().copied() } else { None };
     start(model, weight, (windows, step), places, wrenches);
-    if in_line && in_line::may_be::<P, T>() {
+    if MayBe::<P, T>::UNIFORM && in_line {
         in_line::add::<P, T, D>(model, places, (bodies, rests), wrenches);
     } else if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
         for group in model.groups {

@@ -2,10 +2,13 @@
 //!
 //! `(points, ends) => force_pair`. Counts are compile-time constants: loops and lists are eliminated.
 
+use core::marker::PhantomData;
+
 use crate::elements::tsda::Tsda;
 use crate::elongation::{AtRest, Beside, Beyond, Elongation};
-use crate::forces::force_pair::ForcePair;
+use crate::forces::force_pair::{Dampers, ForcePair};
 use crate::geometry::Geometry;
+use crate::model::Terms;
 use crate::pose::{End, Spot};
 use crate::real::Real;
 use crate::space::{Linear, Space as _, Vector as _};
@@ -28,14 +31,16 @@ fn at<T: Copy + Default, const TRIPLES: usize, const ARMS: usize>(
 }
 
 /// The springs at the points of a block.
-pub(super) struct Springs<'m, P: Geometry, const TRIPLES: usize, const ARMS: usize> {
+pub(super) struct Springs<'m, P: Geometry, T, D, const TRIPLES: usize, const ARMS: usize> {
     pub(super) springs: &'m [[Tsda<P::Real>; ARMS]; TRIPLES],
     pub(super) rests: Option<&'m [[P::Rest; ARMS]; TRIPLES]>,
     pub(super) dampers: Option<&'m [[P::Real; ARMS]; TRIPLES]>,
     pub(super) clearance: Option<P::Real>,
+    /// What the model's groups may have, and whether dampers act: code of others is not compiled.
+    pub(super) kinds: PhantomData<(T, D)>,
 }
 
-impl<P: Geometry, const ARMS: usize> Springs<'_, P, 1, ARMS> {
+impl<P: Geometry, T: Terms<P>, D: Dampers, const ARMS: usize> Springs<'_, P, T, D, 1, ARMS> {
     /// Adds the forces of one triple's springs to a record of the triples before it.
     #[inline(always)]
     pub(super) fn add(
@@ -58,7 +63,12 @@ impl<P: Geometry, const ARMS: usize> Springs<'_, P, 1, ARMS> {
     }
 }
 
-impl<P: Geometry, const TRIPLES: usize, const ARMS: usize> Springs<'_, P, TRIPLES, ARMS> {
+impl<P: Geometry, T: Terms<P>, D: Dampers, const TRIPLES: usize, const ARMS: usize>
+    Springs<'_, P, T, D, TRIPLES, ARMS>
+{
+    /// Whether its springs may have dampers that act.
+    const DAMPED: bool = D::ACT && T::DAMPERS;
+
     /// Their record between two ends: unrolled, each sum starting with its first term.
     #[inline(always)]
     pub(super) fn force_pair(
@@ -68,7 +78,9 @@ impl<P: Geometry, const TRIPLES: usize, const ARMS: usize> Springs<'_, P, TRIPLE
         end_a: &End<'_, P>,
         end_b: &End<'_, P>,
     ) -> ForcePair<P::Space> {
-        if let Some(rests) = self.rests {
+        if P::RESTS
+            && let Some(rests) = self.rests
+        {
             return self.beside_rest(rests, centres, &endpoints[0], end_a, end_b);
         }
         let mut spots = [(P::Location::default(), P::Vector::ZERO); TRIPLES];
@@ -146,7 +158,7 @@ impl<P: Geometry, const TRIPLES: usize, const ARMS: usize> Springs<'_, P, TRIPLE
         off: P::Vector,
         ends: [(&End<'_, P>, P::Vector); 2],
     ) -> P::Vector {
-        if self.dampers.is_some() || self.clearance.is_some() {
+        if Self::DAMPED && self.dampers.is_some() || T::CLEARANCES && self.clearance.is_some() {
             self.triple_of_any(triple, rests, off, ends)
         } else {
             self.triple_of_springs(triple, rests, off)
@@ -208,7 +220,7 @@ impl<P: Geometry, const TRIPLES: usize, const ARMS: usize> Springs<'_, P, TRIPLE
             *elongation = P::at_rest(rest).elongation(off);
             each.1 = arm;
         }
-        if self.dampers.is_some() {
+        if Self::DAMPED && self.dampers.is_some() {
             let rate = end_b.point_velocity(arm_b) - end_a.point_velocity(arm_a);
             rates = [end_b.to_axes(rate); ARMS];
         }
@@ -233,7 +245,7 @@ impl<P: Geometry, const TRIPLES: usize, const ARMS: usize> Springs<'_, P, TRIPLE
             each.0 = triple;
             *elongation = P::elongation(centre, &endpoint, at(self.springs, *each).free_length);
         }
-        if self.dampers.is_some() {
+        if Self::DAMPED && self.dampers.is_some() {
             let velocity = end_b.point_velocity(endpoint_arm);
             for (rate, (_, arm_a)) in rates.iter_mut().zip(spots) {
                 *rate = velocity - end_a.point_velocity(*arm_a);
@@ -262,7 +274,7 @@ impl<P: Geometry, const TRIPLES: usize, const ARMS: usize> Springs<'_, P, TRIPLE
             (each.1, *arm_b) = (arm, endpoint_arm);
             *elongation =
                 P::elongation(&spots[0].0, &endpoint, at(self.springs, *each).free_length);
-            if self.dampers.is_some() {
+            if Self::DAMPED && self.dampers.is_some() {
                 *rate = end_b.point_velocity(endpoint_arm) - end_a.point_velocity(spots[0].1);
             }
         }
@@ -288,27 +300,27 @@ impl<P: Geometry, const TRIPLES: usize, const ARMS: usize> Springs<'_, P, TRIPLE
         }
         let mut pulls = [P::Vector::ZERO; N];
         match (self.dampers, self.clearance) {
-            (None, None) => pulls = Tsda::pulls(&springs, reaches),
-            (None, clearance) => {
+            (None, clearance) if T::CLEARANCES && clearance.is_some() => {
                 for (pull, (spring, elongation)) in
                     pulls.iter_mut().zip(springs.iter().zip(reaches))
                 {
                     *pull = spring.pull(elongation, clearance);
                 }
             }
-            (Some(dampers), None) => {
+            (Some(dampers), None) if Self::DAMPED => {
                 let mut dampings = [P::Real::ZERO; N];
                 for (damping, place) in dampings.iter_mut().zip(each) {
                     *damping = at(dampers, place);
                 }
                 pulls = Tsda::damped_pulls(&springs, &dampings, reaches, rates);
             }
-            (Some(dampers), clearance) => {
+            (Some(dampers), clearance) if Self::DAMPED && T::CLEARANCES => {
                 let rows = springs.iter().zip(reaches.iter().zip(rates)).zip(each);
                 for (pull, ((spring, (elongation, rate)), place)) in pulls.iter_mut().zip(rows) {
                     *pull = spring.damped_pull(at(dampers, place), elongation, *rate, clearance);
                 }
             }
+            _ => pulls = Tsda::pulls(&springs, reaches),
         }
         pulls
     }

@@ -7,6 +7,8 @@
 //! [`block`]: its counts are compile-time constants, which eliminates loops, bounds and lists. [`rare`] handles the
 //! rest.
 
+use core::marker::PhantomData;
+
 use crate::elements::tsda::Tsda;
 use crate::forces::force_pair::{Dampers, ForcePair};
 use crate::forces::springs::Springs;
@@ -158,16 +160,17 @@ pub(super) fn pull<
 ) -> Option<ForcePair<P::Space>> {
     let (centres, endpoints) = points.split_first_chunk::<TRIPLES>()?;
     let endpoints: &[_; ARMS] = endpoints.first_chunk()?;
-    let clearance = model.clearance(group);
+    let (clearance, kinds) = (model.clearance(group), PhantomData);
     Some(match group.damper.row() {
         // Separate: damping is not tested for each spring.
         Some(row) if D::ACT && T::DAMPERS => {
             let dampers = Some(grid(model.dampers, row)?);
-            let springs = Springs::<P, _, _> { springs, rests, dampers, clearance };
+            let springs = Springs::<P, T, D, _, _> { springs, rests, dampers, clearance, kinds };
             springs.force_pair(centres, endpoints, end_a, end_b)
         }
         _ => {
-            let springs = Springs::<P, _, _> { springs, rests, dampers: None, clearance };
+            let dampers = None;
+            let springs = Springs::<P, T, D, _, _> { springs, rests, dampers, clearance, kinds };
             springs.force_pair(centres, endpoints, end_a, end_b)
         }
     })
@@ -201,7 +204,8 @@ fn apart<P: Geometry, T: Terms<P>, D: Dampers, const ARMS: usize>(
             Some(row) if D::ACT && T::DAMPERS => Some(grid(model.dampers, row + triple * ARMS)?),
             _ => None,
         };
-        let triple = Springs { springs, rests: None, dampers, clearance };
+        let kinds = PhantomData::<(T, D)>;
+        let triple = Springs { springs, rests: None, dampers, clearance, kinds };
         triple.add(centre, endpoints, end_a, end_b, &mut force_pair);
     }
     Some(force_pair)

@@ -266,7 +266,7 @@ impl<P: Geometry> Interaction<P> for PlaneContact<P> {
             return (0..3).for_each(|_| visit(Damper::idle()));
         }
         let touching = self.touching(seen, memory);
-        let is_free = P::Real::LANES == 1 && touching.stopped.beyond == zero;
+        let is_free = P::Real::ONE_LANE && touching.stopped.beyond == zero;
         let dampers = [
             (self.dissipation != zero).then(|| touching.stopped.damper(seen, self.dissipation)),
             (shears && !is_free).then(|| self.shear_damper(seen, &touching)),

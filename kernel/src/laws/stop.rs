@@ -69,7 +69,7 @@ impl<P: Geometry> Stopped<P> {
     /// Whether it is within its range; always `false` for lanes.
     #[inline(always)]
     fn is_free(&self) -> bool {
-        P::Real::LANES == 1 && self.beyond == P::Real::ZERO
+        P::Real::ONE_LANE && self.beyond == P::Real::ZERO
     }
 
     /// \[m, rad\] the depth beyond the range.

@@ -224,7 +224,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// law.
     #[inline(always)]
     pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
-        if P::Real::LANES == 1 {
+        if P::Real::ONE_LANE {
             self.evaluate_apart::<D::Forces>(at, false)
         } else {
             self.evaluate_here::<D::Forces>(at, false)
@@ -243,7 +243,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// As [`Self::evaluate`].
     #[inline(always)]
     pub(crate) fn evaluate_once<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
-        if P::Real::LANES == 1 && T::ALL {
+        if P::Real::ONE_LANE && T::ALL {
             self.evaluate_apart::<D::Forces>(at, placed)
         } else {
             self.evaluate_here::<D::Forces>(at, placed)
@@ -317,10 +317,10 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// Adds `scale·(h·D⁻¹)·Q` to the velocities, without the gyroscopic term.
     #[inline(always)]
     pub fn kick(&mut self, scale: P::Real) {
-        match (P::Real::LANES, P::RESTS) {
-            (1, true) => self.kick_alone(scale),
-            (1, false) => self.kick_apart(scale),
-            _ => self.kick_here(scale),
+        if P::Real::ONE_LANE {
+            if P::RESTS { self.kick_alone(scale) } else { self.kick_apart(scale) }
+        } else {
+            self.kick_here(scale);
         }
     }
 
@@ -426,7 +426,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             P::advance_position(&mut state.position, &state.velocity, time);
             let (q, w) = (&mut state.orientation, &mut state.angular_velocity);
-            if P::Real::LANES == 1 {
+            if P::Real::ONE_LANE {
                 rotation::free_rotor_of_order_four::<P>(body, q, w, time);
             } else {
                 lockstep::free_rotor_of_order_four::<P>(body, q, w, time);
