@@ -183,7 +183,7 @@ mod tests {
             line.split_whitespace().skip(1).map(str::to_owned).collect::<Vec<_>>()
         };
         assert_eq!(row("pefrl"), ["FAULTY", "–"]);
-        assert_eq!(row("dbd"), ["clean", "clean"]);
+        assert_eq!(row("leapfrog"), ["clean", "clean"]);
         assert_eq!(row("rk4"), ["MISSING", "–"]);
         assert_eq!(missing(&findings), ["audit.step.four-bar.rk4.f32"]);
     }
