@@ -1,6 +1,6 @@
 //! Values of a scene changed by their paths.
 
-use dbd_scene::{Scene, SceneError};
+use dbd_scene::{Scene, SceneError, SceneText};
 
 const SCENE: &str = r#"name = "cart"
 duration = 1
@@ -120,6 +120,36 @@ fn what_is_wrong_with_a_change_is_shown_in_it() {
     let error = Scene::parse_with(&SCENE.replace("mass = 2", "mass = 0"), "cart.toml", &["step=1"]);
     let error = error.unwrap_err();
     assert_eq!((error.file(), error.line()), ("cart.toml", Some(13)));
+}
+
+/// A text that is parsed once gives what it gives parsed each time, in any order of the changes.
+#[test]
+fn a_parsed_text_keeps_no_change() {
+    let text = SceneText::parse(SCENE, "cart.toml").unwrap();
+    let cases: [&[&str]; 6] = [
+        &["body.cart.mass=1.5", "gravity[1]=-1"],
+        &[],
+        &["step=20us"],
+        &["body.cart.mass=-1"],
+        &["body.cat.mass=1"],
+        &["body.cart.mass=2.5"],
+    ];
+    for changes in cases {
+        match (text.scene(changes), with(changes)) {
+            (Ok(scene), Ok(expected)) => {
+                assert_eq!(scene.long_text().unwrap(), expected.long_text().unwrap());
+                assert_eq!(scene.changes, expected.changes);
+                assert_eq!(
+                    (scene.step, scene.model.gravity),
+                    (expected.step, expected.model.gravity)
+                );
+            }
+            (Err(error), Err(expected)) => assert_eq!(error.to_string(), expected.to_string()),
+            (found, expected) => panic!("{changes:?}: {:?}, {:?}", found.err(), expected.err()),
+        }
+    }
+    let error = SceneText::parse("name = ", "cart.toml").unwrap_err();
+    assert_eq!((error.file(), error.line()), ("cart.toml", Some(1)));
 }
 
 #[test]
