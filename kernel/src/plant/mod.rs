@@ -90,16 +90,36 @@ where
     /// change nothing and return the same failure.
     #[inline]
     pub fn step(&mut self) -> Status {
-        self.advance_by(1)
+        if !self.base.status.is_running() {
+            return self.base.status;
+        }
+        // Incremented first, so that no register holds the counter during the step.
+        let step = self.base.state.step;
+        let Some(next) = step.checked_add(1) else { return self.fail(Cause::Steps) };
+        self.base.state.step = next;
+        let cause = match self.attempt(step) {
+            Ok(()) => self.fault(),
+            Err(cause) => Some(cause),
+        };
+        if let Some(cause) = cause {
+            return self.fail(cause);
+        }
+        self.base.sample();
+        Status::Running
     }
 
-    /// `n` steps with held inputs, or as many as succeed. Cheaper than `n` calls of [`Self::step`].
-    pub fn advance(&mut self, n: u64) -> Status {
-        self.advance_by(n)
-    }
-
+    /// The scheme's step of this number.
     #[inline(always)]
-    fn advance_by(&mut self, n: u64) -> Status {
+    fn attempt(&mut self, step: u64) -> Result<(), Cause> {
+        let Self { base, scheme, kept, memory } = self;
+        let (mut workspace, _) = base.workspace(kept);
+        workspace.step = step;
+        scheme.step(&mut Stepper { workspace, memory: memory.as_mut() })
+    }
+
+    /// `n` steps with held inputs, or as many as succeed. On a PC cheaper than `n` calls of [`Self::step`], which is
+    /// the cheaper one on a Cortex-M4F.
+    pub fn advance(&mut self, n: u64) -> Status {
         // The whole plant samples tables over sensors, so it is borrowed for one step at a time.
         let stride = if self.base.samples_sensors() { 1 } else { n };
         let mut left = n;
@@ -120,7 +140,6 @@ where
         let (workspace, counter) = base.workspace(kept);
         let mut stepper = Stepper { workspace, memory: memory.as_mut() };
         for _ in 0..n {
-            // Incremented first, so that no register holds the counter during the step.
             stepper.workspace.step = *counter;
             *counter = counter.checked_add(1).ok_or(Cause::Steps)?;
             scheme.step(&mut stepper)?;
@@ -141,13 +160,10 @@ where
     /// The failure of the scheme.
     #[inline(always)]
     pub fn step_unguarded(&mut self) -> Result<(), Cause> {
-        let Self { base, scheme, kept, memory } = self;
-        let (workspace, counter) = base.workspace(kept);
-        let mut stepper = Stepper { workspace, memory: memory.as_mut() };
-        *counter = counter.wrapping_add(1);
-        let done = scheme.step(&mut stepper);
-        stepper.workspace.sample_start(*counter);
-        self.base.sample_sensors();
+        let step = self.base.state.step;
+        self.base.state.step = step.wrapping_add(1);
+        let done = self.attempt(step);
+        self.base.sample();
         done
     }
 
