@@ -117,8 +117,8 @@ where
         scheme.step(&mut Stepper { workspace, memory: memory.as_mut() })
     }
 
-    /// `n` steps with held inputs, or as many as succeed. On a PC cheaper than `n` calls of [`Self::step`], which is
-    /// the cheaper one on a Cortex-M4F.
+    /// `n` steps with held inputs, or as many as succeed. Cheaper than `n` calls of [`Self::step`] where `n` is large;
+    /// dearer for a single one.
     pub fn advance(&mut self, n: u64) -> Status {
         // The whole plant samples tables over sensors, so it is borrowed for one step at a time.
         let stride = if self.base.samples_sensors() { 1 } else { n };
