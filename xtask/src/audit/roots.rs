@@ -15,7 +15,7 @@ pub const SCHEMES: [&str; 12] = [
     "semi-implicit-euler-joint-wise",
     "leapfrog-joint-wise",
 ];
-/// Those of double precision: it is compiled from the same text, and three times as large.
+/// Those of double precision: it is compiled from the same text, and its steps are nearly three times as large.
 pub const DOUBLE: [&str; 1] = ["leapfrog"];
 /// Models of laws alone.
 pub const LAWFUL: [&str; 2] = ["laws-of-turns", "laws-of-travels"];

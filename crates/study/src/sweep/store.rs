@@ -94,7 +94,7 @@ impl Store {
     fn take(&mut self, path: &Path, mend: bool) -> io::Result<u64> {
         let bytes = file::read(path, u64::MAX)?;
         let Lines { whole, damaged, length } = Lines::of(&bytes);
-        // One reader for all lines: its tables are as large as a row.
+        // One reader for all lines: making one takes longer than reading a line.
         let records: String = whole.iter().map(|(_, record)| format!("{record}\n")).collect();
         let mut options = csv::ReaderBuilder::new();
         let reader = options.has_headers(false).flexible(true).from_reader(records.as_bytes());

@@ -1,7 +1,7 @@
 //! Roots `audit.step.MODEL.SCHEME.PRECISION`: steps of all schemes.
 //!
 //! All schemes with the four-bar and with a model that has every kind of element, in single precision and in fixed
-//! point; of double precision, which is compiled from the same text and is three times as large, leapfrog. Every law with leapfrog, every other
+//! point; of double precision, which is compiled from the same text, leapfrog. Every law with leapfrog, every other
 //! shipped model with leapfrog in single precision, some in fixed point.
 
 use dbd_kernel::laws::{
