@@ -46,13 +46,16 @@ pub(crate) struct Changes {
     pub(crate) given: Vec<String>,
 }
 
+/// Precedes a change's value; shorter than any path with its equals sign and the line break before it.
+const KEY: &str = "v=";
+
 struct Change {
     steps: Vec<Placed>,
     /// Start of its line in the whole text, and start of its value.
     start: usize,
     value: usize,
-    /// The value as a table, preceded by blanks so that parsed positions are those of the whole text.
-    padded: String,
+    /// The value as a table.
+    toml: String,
 }
 
 impl Changes {
@@ -76,8 +79,7 @@ impl Changes {
             whole.text.push_str(&written[..value]);
             let value = whole.text.len();
             whole.text.push_str(&toml);
-            let padded = format!("{}v={toml}", " ".repeat(value - 2));
-            whole.changes.push(Change { steps, start, value, padded });
+            whole.changes.push(Change { steps, start, value, toml: format!("{KEY}{toml}") });
         }
         Ok(whole)
     }
@@ -141,7 +143,7 @@ impl Change {
     }
 
     fn parse<'t>(&'t self, source: Source<'t>) -> Result<Spanned<DeValue<'t>>, SceneError> {
-        let parsed = text::parse_at(source, &self.padded)?;
+        let parsed = text::parse_at(source, &self.toml, self.value - KEY.len())?;
         match parsed.into_iter().next() {
             Some((_, value)) => Ok(value),
             None => Err(source.refuse(self.place(), "missing value", "expected PATH=VALUE")),

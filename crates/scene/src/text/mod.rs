@@ -17,27 +17,57 @@ pub(crate) use value::{Kind, Value};
 
 use std::ops::Range;
 
-use toml::de::DeTable;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 use crate::error::{SceneError, Source};
 use crate::shortened::shortened;
 
 /// Parses the file's text.
 pub(crate) fn parse(source: Source<'_>) -> Result<DeTable<'_>, SceneError> {
-    parse_at(source, source.text.get(..source.own).unwrap_or(source.text))
+    parse_at(source, source.text.get(..source.own).unwrap_or(source.text), 0)
 }
 
-/// Parses a text whose positions are those of the source.
-pub(crate) fn parse_at<'t>(source: Source<'t>, text: &'t str) -> Result<DeTable<'t>, SceneError> {
+/// Parses a text; its positions are those of the source, where it begins at `start`.
+pub(crate) fn parse_at<'t>(
+    source: Source<'t>,
+    text: &'t str,
+    start: usize,
+) -> Result<DeTable<'t>, SceneError> {
     match DeTable::parse(text) {
-        Ok(document) => Ok(document.into_inner()),
+        Ok(document) if start == 0 => Ok(document.into_inner()),
+        Ok(document) => Ok(moved_table(document.into_inner(), start)),
         Err(error) => {
             let end = text.len();
             let span = error.span().unwrap_or(end..end);
+            let span = start + span.start..start + span.end;
             let (message, help) = explain(source, &span, error.message());
             Err(source.refuse(span, message, help))
         }
     }
+}
+
+/// A table whose positions are later by `by` bytes.
+fn moved_table(table: DeTable<'_>, by: usize) -> DeTable<'_> {
+    table
+        .into_iter()
+        .map(|(key, value)| (moved(key, by, |key, _| key), moved_value(value, by)))
+        .collect()
+}
+
+fn moved_value(value: Spanned<DeValue<'_>>, by: usize) -> Spanned<DeValue<'_>> {
+    moved(value, by, |value, by| match value {
+        DeValue::Array(items) => {
+            DeValue::Array(items.into_iter().map(|item| moved_value(item, by)).collect())
+        }
+        DeValue::Table(table) => DeValue::Table(moved_table(table, by)),
+        other => other,
+    })
+}
+
+fn moved<T>(spanned: Spanned<T>, by: usize, inner: impl Fn(T, usize) -> T) -> Spanned<T> {
+    let span = spanned.span();
+    Spanned::new(span.start + by..span.end + by, inner(spanned.into_inner(), by))
 }
 
 /// Problem and remedy, from the parser's message and its position.
