@@ -4,6 +4,7 @@
 //! `SVG in light colours => the same SVG with rules for dark colours`. Rules select the colours in `fill` and `stroke`,
 //! so drawing code uses one set only; readers without style sheets see the light one.
 
+use std::collections::HashSet;
 use std::fmt::Write as _;
 
 /// The class of a drawing's root: rules reach no other drawing of a page.
@@ -51,11 +52,11 @@ pub fn adapted(svg: &str) -> String {
     else {
         return svg.to_owned();
     };
-    let (mut followed, mut chosen) = (String::new(), String::new());
+    let (used, mut followed, mut chosen) = (used(svg), String::new(), String::new());
     for (light, dark) in PAIRS {
         for property in ["fill", "stroke"] {
             let attribute = format!("{property}=\"{light}\"");
-            if svg.contains(&attribute) {
+            if used.contains(attribute.as_str()) {
                 let part = format!(":is(.{CLASS},.{CLASS} *)[{attribute}]");
                 let rule = format!("{{{property}:{dark}}}");
                 // A page may let its reader choose.
@@ -68,6 +69,16 @@ pub fn adapted(svg: &str) -> String {
     format!(
         "{root}>\n<style>@media (prefers-color-scheme:dark){{{followed}}}{chosen}</style>{rest}"
     )
+}
+
+/// The attributes `fill="#…"` and `stroke="#…"` of a drawing, each once.
+fn used(svg: &str) -> HashSet<&str> {
+    let attribute = |(at, begins): (usize, &str)| {
+        let name = ["fill", "stroke"].into_iter().find(|name| svg[..at].ends_with(name))?;
+        let value = &svg[at + begins.len()..];
+        svg.get(at - name.len()..at + begins.len() + value.find('"')? + 1)
+    };
+    svg.match_indices("=\"#").filter_map(attribute).collect()
 }
 
 /// Colours of a drawing's `fill` and `stroke` without a dark colour, for tests.
