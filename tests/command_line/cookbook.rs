@@ -17,7 +17,7 @@ use crate::{Folder, call};
 const PAGE: &str = "docs/cookbook.md";
 
 /// What is shown of a task: its block, and the beginnings of the lines.
-const SHOWN: [(&str, &[&str]); 10] = [
+const SHOWN: [(&str, &[&str]); 11] = [
     ("motor", &["read-out  ", "engaged", "energy, balance"]),
     ("suspension", &["read-out                  `tyre", "tyre_force", "car_speed.z"]),
     ("crane", &["read-out                  `trolley_speed.x", "read-out                  `motor"]),
@@ -36,6 +36,7 @@ const SHOWN: [(&str, &[&str]); 10] = [
             "robot: ",
         ],
     ),
+    ("laws", &["my-laws"]),
     ("golden", &["golden"]),
     ("firmware", &["gate-"]),
     (
@@ -55,10 +56,11 @@ const PICTURES: [(&str, &str); 5] = [
 ];
 
 /// What commands write beside `out`.
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "four-bar.golden",
     "gate-c",
     "gate-rust",
+    "my-laws",
     "out/quarter-car",
     "pendulum.fmu",
     "pendulum.json",
@@ -191,7 +193,7 @@ impl Reader {
 fn the_cookbook_does_what_it_says() {
     let reader = Reader(Folder::new());
     let tasks = tasks();
-    assert_eq!(tasks.len(), 14);
+    assert_eq!(tasks.len(), 15);
     let mut elsewhere = 0;
     for task in &tasks {
         assert!(!task.commands.is_empty(), "{task:?}");
