@@ -20,6 +20,8 @@ struct Target {
     name: String,
     /// \[rad, m\] initial value.
     start: f64,
+    /// \[1, m\] the factor of a fixed tendon: force on the coordinate over force of the actuator.
+    factor: f64,
     /// \[kg·m², kg\] the driven inertia.
     inertia: Option<f64>,
     /// The TSDA of its own spring.
@@ -111,8 +113,14 @@ fn target(
     mechanism: &Mechanism<'_>,
     given: &Attributes<'_>,
 ) -> Result<Result<Target, String>, Fault> {
-    if let Some(named) = given.get("joint").or(given.get("jointinparent")) {
-        let body = mechanism.tree.joint(named)?;
+    let of_joint = given.get("joint").or(given.get("jointinparent"));
+    let of_tendon = given.get("tendon").filter(|_| of_joint.is_none());
+    let scaled = of_tendon.and_then(|named| mechanism.scaled.get(&named.value));
+    let of_joint = match of_joint {
+        Some(named) => Some((named, mechanism.tree.joint(named)?, 1.0)),
+        None => of_tendon.zip(scaled).map(|(named, (body, factor))| (named, *body, *factor)),
+    };
+    if let Some((named, body, factor)) = of_joint {
         let Some(coordinate) = mechanism.coordinates.get(&body).cloned() else {
             let why = "its joint is not a hinge or slide of the scene".to_owned();
             return Ok(Err(why));
@@ -121,6 +129,7 @@ fn target(
             coordinate,
             name: named.value.clone(),
             start: mechanism.pose.coordinates[body],
+            factor,
             inertia: mechanism.driven.get(&body).copied(),
             element: mechanism.elements.get(&body).cloned(),
         }));
@@ -135,7 +144,8 @@ fn target(
         Coordinate::Length { points: [a, b], .. } => (b - a).norm(),
         _ => 0.0,
     };
-    Ok(Ok(Target { coordinate, name: named.value.clone(), start, inertia: None, element }))
+    let name = named.value.clone();
+    Ok(Ok(Target { coordinate, name, start, factor: 1.0, inertia: None, element }))
 }
 
 /// Adds the element and the input of an actuator.
@@ -155,6 +165,10 @@ fn actuator(
         return Ok(());
     };
     let is_motor = law.is_none();
+    if !is_motor && target.factor != 1.0 {
+        omit(given, "a servo of a fixed tendon requires the coefficient 1", omissions);
+        return Ok(());
+    }
     let (control, bounds) =
         limits(given, &target.coordinate, (control, is_motor), settings, omissions)?;
     // A constant force belongs to the input where no spring can represent it: without stiffness, and for a tendon,
@@ -183,6 +197,7 @@ fn actuator(
         line = Some(made);
     }
     let (kind, mut keys, sign) = target.coordinate.drive(mechanism, &line.unwrap_or_default());
+    let sign = sign * target.factor;
     let per_control = sign * servo.per_control();
     let of_control = bounds.control.map(|bound| per_control * bound + sign * constant);
     let of_force = bounds.force.map(|bound| sign * servo.gear() * bound);

@@ -31,6 +31,9 @@ pub(crate) enum Way {
     Free,
     /// Two slides and a hinge across them from the world, in a planar scene: no joint.
     Plane,
+    /// Two slides at right angles from the world, alone or followed by a hinge across them: a bushing without
+    /// stiffness along the slides and about the hinge.
+    Level,
 }
 
 /// The connection of a body to the previous one.
@@ -92,6 +95,8 @@ fn of_body(
         Some(Way::Free)
     } else if around.planar && is_plane(&joints, around) {
         Some(Way::Plane)
+    } else if is_level(&joints) {
+        Some(Way::Level)
     } else {
         None
     };
@@ -146,6 +151,17 @@ fn is_plane(joints: &[&Joint], around: &Circumstances) -> bool {
     let pushed = |joint: &&&Joint| joint.freedom == Freedom::Slide && around.acts(joint);
     let calm = !joints.iter().any(|joint| pushed(&joint));
     joints.len() == 3 && across && a.cross(b).norm() > ALIKE && (square || calm)
+}
+
+/// Whether joints leave two perpendicular translations free, in a frame that does not rotate, and at most the rotation
+/// about their normal.
+fn is_level(joints: &[&Joint]) -> bool {
+    let kinds: Vec<Freedom> = joints.iter().map(|joint| joint.freedom).collect();
+    let slides = [Freedom::Slide, Freedom::Slide];
+    let known = kinds == slides || kinds == [slides[0], slides[1], Freedom::Hinge];
+    let axes: Vec<Vector3<f64>> = joints.iter().map(|joint| joint.axis.into_inner()).collect();
+    let square = |i: usize, j: usize| axes[i].dot(&axes[j]).abs() < ALIKE;
+    known && (0..axes.len()).all(|j| (0..j).all(|i| square(i, j)))
 }
 
 /// The intersection of the axes of two hinges, if any.

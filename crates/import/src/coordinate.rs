@@ -77,6 +77,17 @@ pub(crate) enum Coordinate {
         /// Its normal in the plane.
         across: Vector3<f64>,
     },
+    /// Translation of a part along an axis of the world, beside another translation.
+    Level {
+        /// The part.
+        part: usize,
+        /// \[m\] the translated point.
+        at: Vector3<f64>,
+        /// Direction of translation.
+        axis: Vector3<f64>,
+        /// Direction of the other translation, perpendicular to it.
+        across: Vector3<f64>,
+    },
 }
 
 impl Coordinate {

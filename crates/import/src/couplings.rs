@@ -5,7 +5,7 @@
 
 use crate::body::{Freedom, Joint};
 use crate::defaults::Attributes;
-use crate::element::Attribute;
+use crate::element::{Attribute, Element};
 use crate::error::Fault;
 use crate::mechanism::{Axis, Coupling, Mechanism, rounded};
 use crate::settings::Settings;
@@ -101,6 +101,22 @@ pub(crate) fn equality(
     Ok(None)
 }
 
+/// Stores a fixed tendon of one joint, for actuators.
+fn single(mechanism: &mut Mechanism<'_>, element: &Element) -> Result<(), Fault> {
+    let mut found = Vec::new();
+    for child in element.children.iter().filter(|child| child.name == "joint") {
+        let own = Attributes::own(child);
+        let factor = own.numbers("coef", 1, 1)?.map_or(0.0, |numbers| numbers[0]);
+        if let Some(named) = own.get("joint").filter(|_| factor != 0.0) {
+            found.push((mechanism.tree.joint(named)?, factor));
+        }
+    }
+    if let ([one], Some(name)) = (&found[..], element.text("name")) {
+        mechanism.scaled.insert(name.to_owned(), *one);
+    }
+    Ok(())
+}
+
 /// Adds couplings for the spring and the range of a fixed tendon, or returns the reason why it has no counterpart.
 pub(crate) fn tendon(
     mechanism: &mut Mechanism<'_>,
@@ -108,6 +124,7 @@ pub(crate) fn tendon(
     settings: &Settings,
 ) -> Result<Option<&'static str>, Fault> {
     let element = given.element;
+    single(mechanism, element)?;
     let off = |flag: &str, value: f64| if settings.is_off(flag) { 0.0 } else { value };
     let linear = |name: &str| -> Result<f64, Fault> {
         Ok(given.numbers(name, 1, 3)?.map_or(0.0, |numbers| numbers[0]))
@@ -117,8 +134,10 @@ pub(crate) fn tendon(
     let limited = given.limited("limited", "range", settings.automatic_limits)?;
     let range = given.numbers("range", 2, 2)?.filter(|_| limited && !settings.is_off("limit"));
     if stiffness_of_spring == 0.0 && damping == 0.0 && range.is_none() {
-        let called = element.called();
-        mechanism.notes.push(format!("{called} exerts no force and is left out"));
+        if element.text("name").is_none_or(|name| !mechanism.scaled.contains_key(name)) {
+            let called = element.called();
+            mechanism.notes.push(format!("{called} exerts no force and is left out"));
+        }
         return Ok(None);
     }
     if range.as_ref().is_some_and(|range| range[0] >= range[1]) {

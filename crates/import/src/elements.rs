@@ -5,7 +5,8 @@
 use nalgebra::Vector3;
 
 use crate::coordinate::{Coordinate, Law};
-use crate::mechanism::{Line, Mechanism, Rail, Torsion, rounded};
+use crate::interaction::{Sides, bushing};
+use crate::mechanism::{Interaction, Line, Mechanism, Rail, Torsion, rounded};
 use crate::notation::{text, vector};
 use crate::place::Source;
 
@@ -90,6 +91,14 @@ impl Coordinate {
                     source,
                 });
             }
+            Self::Level { part, at, axis, across } => {
+                let between = [None, Some(part)];
+                let sides = Sides { between, at: [at + axis * law.zero(), at] };
+                let along = [[stiffness, 0.0, 0.0], [damping, 0.0, 0.0]];
+                let keys = bushing(mechanism, &sides, [axis, across], along, [[0.0; 3]; 2]);
+                let (name, law) = (name.clone(), "bushing");
+                mechanism.interactions.push(Interaction { name, law, between, keys, source });
+            }
         }
         name
     }
@@ -114,7 +123,7 @@ impl Coordinate {
             Self::Slide { .. } => ("actuator", vec![format!("target = {}", text(element))], 1.0),
             // A TSDA pulls its endpoints together.
             Self::Length { .. } => ("actuator", vec![format!("target = {}", text(element))], -1.0),
-            Self::Shift { part, at, axis, .. } => {
+            Self::Shift { part, at, axis, .. } | Self::Level { part, at, axis, .. } => {
                 let point = mechanism.within(Some(*part), *at);
                 let keys = vec![
                     format!("body = {}", text(mechanism.name(Some(*part)))),

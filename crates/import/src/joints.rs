@@ -8,11 +8,13 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use crate::body::{Freedom, Joint};
 use crate::chain::{Stage, Way, centre};
 use crate::coordinate::{Coordinate, Law};
+use crate::interaction::{LIMIT_SPEED, RESTITUTION, Sides, bushing};
 use crate::lacks;
-use crate::mechanism::{Axis, Link, Load, Mechanism, Signal, Torsion, Type, rounded};
+use crate::mechanism::{Axis, Interaction, Link, Load, Mechanism, Signal, Torsion, Type, rounded};
 use crate::notation::{number, text, vector};
 use crate::omission::{Kind, Omissions};
 use crate::options::Options;
+use crate::part::Side;
 use crate::settings::Settings;
 use crate::tree::Tree;
 
@@ -69,7 +71,7 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
         .map(|(body, joint)| mechanism.pose.start[*body].rotation * joint.axis.into_inner())
         .collect();
     let kind = match (stage.way, first.freedom) {
-        (Way::Free | Way::Plane, _) | (Way::Single, Freedom::Free) => None,
+        (Way::Free | Way::Plane | Way::Level, _) | (Way::Single, Freedom::Free) => None,
         (Way::Single, Freedom::Hinge) => Some(Type::Revolute(axes[0])),
         (Way::Single, Freedom::Slide) => Some(Type::Translational(axes[0])),
         (Way::Cylindrical, _) => Some(Type::Cylindrical(axes[0])),
@@ -79,7 +81,7 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
     // The axis of a cylindrical joint passes through the hinge.
     let hinge = joints.iter().find(|joint| joint.freedom == Freedom::Hinge).copied();
     let anchor = match stage.way {
-        Way::Cylindrical | Way::Plane => hinge.unwrap_or(first).anchor,
+        Way::Cylindrical | Way::Plane | Way::Level => hinge.unwrap_or(first).anchor,
         _ => centre(&joints),
     };
     let at = mechanism.point(stage.body, anchor);
@@ -131,6 +133,16 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
     } else {
         unknown.clone_from(&joints);
     }
+    if stage.way == Way::Level {
+        name = level(mechanism, stage, &joints, &axes, at);
+        unknown.clear();
+        for (number, joint) in joints.iter().enumerate() {
+            let known = (stage.joints[number], *joint, axes[number]);
+            ends(mechanism, between, known, at);
+            let calm = Joint { limited: false, ..(*joint).clone() };
+            lacks::of_coordinate(&calm, joint.name.as_ref().unwrap_or(&name), omissions);
+        }
+    }
     for joint in unknown {
         let body = &tree.bodies[last_of(tree, stage)].name;
         lacks::of_coordinate(joint, joint.name.as_ref().unwrap_or(body), omissions);
@@ -146,7 +158,7 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
                 ball(mechanism, stage, joint, &name, omissions);
                 continue;
             }
-            (Way::Plane, Freedom::Hinge) => {
+            (Way::Plane | Way::Level, Freedom::Hinge) => {
                 Coordinate::Turn { joint: None, between, axis, is_of_second: false }
             }
             (_, Freedom::Hinge) => {
@@ -163,6 +175,10 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
                 let normal = axes.iter().zip(&joints).find(|(_, j)| j.freedom == Freedom::Hinge);
                 let across = normal.map_or(axis, |(normal, _)| normal.cross(&axis));
                 Coordinate::Shift { part, at, axis, across }
+            }
+            (Way::Level, Freedom::Slide) => {
+                let Some(part) = mechanism.side(stage.body) else { continue };
+                Coordinate::Level { part, at, axis, across: axes[1 - number] }
             }
             (_, Freedom::Slide) => {
                 let known = mechanism.axes.get(&body);
@@ -185,11 +201,72 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
     }
 }
 
-/// Rebound speed of an impact on a limit, as a fraction of [`LIMIT_SPEED`]; MuJoCo's is almost 0.
-pub(crate) const RESTITUTION: f64 = 0.1;
+/// The bushing of two slides and, if there is one, a hinge across them; returns its name.
+fn level(
+    mechanism: &mut Mechanism<'_>,
+    stage: &Stage,
+    joints: &[&Joint],
+    axes: &[Vector3<f64>],
+    at: Vector3<f64>,
+) -> String {
+    let body = &mechanism.tree.bodies[last_of(mechanism.tree, stage)];
+    let names: Vec<&str> = joints.iter().filter_map(|joint| joint.name.as_deref()).collect();
+    let name =
+        mechanism.own_name(&if names.is_empty() { body.name.clone() } else { names.join("-") });
+    let between = [mechanism.side(stage.base), mechanism.side(stage.body)];
+    let (stiffness, damping) = (mechanism.options.stiffness, mechanism.options.damping);
+    let span = mechanism.span(between);
+    let about = 0.25 * span * span;
+    let third = if joints.len() == 2 { 1.0 } else { 0.0 };
+    let turns = [about, about, third * about];
+    let sources: Vec<String> = joints.iter().map(|joint| joint.source().0).collect();
+    let sides = Sides { between, at: [at; 2] };
+    let along = [[0.0, 0.0, stiffness], [0.0, 0.0, damping]];
+    let about = [stiffness, damping].map(|size| turns.map(|turn| rounded(size * turn)));
+    let keys = bushing(mechanism, &sides, [axes[0], axes[1]], along, about);
+    let source = (sources.join(", "), joints[0].place);
+    mechanism.interactions.push(Interaction {
+        name: name.clone(),
+        law: "bushing",
+        between,
+        keys,
+        source,
+    });
+    name
+}
 
-/// \[rad/s, m/s\]
-pub(crate) const LIMIT_SPEED: f64 = 1.0;
+/// The limits of a coordinate that no joint of the scene has, as stops: `known` are its body, its joint and its axis.
+fn ends(
+    mechanism: &mut Mechanism<'_>,
+    between: [Side; 2],
+    (body, joint, axis): (usize, &Joint, Vector3<f64>),
+    at: Vector3<f64>,
+) {
+    let Some([from, to]) = joint.range.filter(|_| joint.limited) else { return };
+    let q = mechanism.pose.coordinates[body];
+    let (words, place) = joint.source();
+    let called = joint.name.clone().unwrap_or_else(|| mechanism.name(between[1]).to_owned());
+    let add = |mechanism: &mut Mechanism<'_>, end: &str, law, mut keys: Vec<String>, hinge| {
+        keys.extend(mechanism.stop(hinge));
+        let name = mechanism.own_name(&format!("{called}-{end}"));
+        let source = (format!("range of {words}"), place);
+        mechanism.interactions.push(Interaction { name, law, between, keys, source });
+    };
+    if joint.freedom == Freedom::Hinge {
+        let span = mechanism.span(between);
+        let keys = vec![
+            format!("axis = {}", vector(axis, 1.0)),
+            format!("from = {}\nto = {}", number(from - q), number(to - q)),
+        ];
+        add(mechanism, "range", "hinge-stop", keys, Some(span));
+        return;
+    }
+    for (end, place, normal) in [("from", from - q, axis), ("to", to - q, -axis)] {
+        let sides = Sides { between, at: [at + axis * place, at] };
+        let keys = vec![sides.points(mechanism), format!("normal = {}", vector(normal, 1.0))];
+        add(mechanism, end, "end-stop", keys, None);
+    }
+}
 
 /// Limits, friction and rotor of a joint as keys of a link; `None` if the link does not have that coordinate. `q` is
 /// the initial coordinate of the joint, and whether the link's bodies are swapped; `lightest` \[kg\] the lighter of its

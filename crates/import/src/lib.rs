@@ -28,6 +28,7 @@
 //! - `part`: merges bodies without joints with their parents.
 //! - `coordinate`: coordinates on which springs and inputs act.
 //! - `mechanism`: joints, springs, inputs, read-outs between parts.
+//! - `interaction`: keys of stops and bushings.
 //! - `elements`: springs and inputs along coordinates.
 //! - `inertia`: inertia driven by joints.
 //! - `servo`: actuators that are linear laws.
@@ -58,6 +59,7 @@ mod elements;
 mod file;
 mod geom;
 mod inertia;
+mod interaction;
 mod joints;
 mod lacks;
 mod loops;

@@ -136,17 +136,17 @@ pub(crate) struct Line {
     pub(crate) source: Source,
 }
 
-/// A range of the distance of two points.
+/// An interaction with its keys as written.
 #[derive(Clone, Debug)]
-pub(crate) struct Rope {
+pub(crate) struct Interaction {
     /// Its name.
     pub(crate) name: String,
-    /// The connected parts.
+    /// Its law.
+    pub(crate) law: &'static str,
+    /// The connected parts; the ground comes first.
     pub(crate) between: [Side; 2],
-    /// \[m\] its endpoints, world.
-    pub(crate) points: [Vector3<f64>; 2],
-    /// \[m\]
-    pub(crate) range: [f64; 2],
+    /// Further keys, each `key = value`.
+    pub(crate) keys: Vec<String>,
     /// Its origin in the file.
     pub(crate) source: Source,
 }
@@ -234,8 +234,8 @@ pub(crate) struct Mechanism<'m> {
     pub(crate) torsions: Vec<Torsion>,
     /// Springs along slides and tendons.
     pub(crate) lines: Vec<Line>,
-    /// Ranges of tendons.
-    pub(crate) ropes: Vec<Rope>,
+    /// Ranges of tendons, and what slides need that no joint has.
+    pub(crate) interactions: Vec<Interaction>,
     /// Springs of slides in the plane.
     pub(crate) rails: Vec<Rail>,
     /// Coordinates of joints, by their bodies.
@@ -248,6 +248,8 @@ pub(crate) struct Mechanism<'m> {
     pub(crate) elements: BTreeMap<usize, String>,
     /// Tendons by their names, and the elements of their springs.
     pub(crate) tendons: BTreeMap<String, (Coordinate, Option<String>)>,
+    /// Fixed tendons of one joint by their names: the body of the joint, and its factor.
+    pub(crate) scaled: BTreeMap<String, (usize, f64)>,
     /// \[kg·m², kg\] inertia driven by hinges and slides, by body.
     pub(crate) driven: BTreeMap<usize, f64>,
     /// Bodies whose joints have rotors.
@@ -283,13 +285,14 @@ impl<'m> Mechanism<'m> {
             links: Vec::new(),
             torsions: Vec::new(),
             lines: Vec::new(),
-            ropes: Vec::new(),
+            interactions: Vec::new(),
             rails: Vec::new(),
             coordinates: BTreeMap::new(),
             axes: BTreeMap::new(),
             couplings: Vec::new(),
             elements: BTreeMap::new(),
             tendons: BTreeMap::new(),
+            scaled: BTreeMap::new(),
             rotors: BTreeSet::new(),
             driven: BTreeMap::new(),
             planar: false,

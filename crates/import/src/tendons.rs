@@ -7,7 +7,9 @@ use crate::couplings;
 use crate::defaults::{Attributes, Defaults, MAIN};
 use crate::element::Element;
 use crate::error::Fault;
-use crate::mechanism::{Mechanism, Rope};
+use crate::interaction::Sides;
+use crate::mechanism::{Interaction, Mechanism};
+use crate::notation::number;
 use crate::omission::{Kind, Omissions};
 use crate::pose::Pose;
 use crate::settings::Settings;
@@ -94,14 +96,20 @@ fn tendon(
         if from >= to || to <= 0.0 {
             return Ok(Some("its range is empty"));
         }
-        let rope = Rope {
-            name: mechanism.own_name(&format!("{name}-range")),
-            between: [mechanism.side(a), mechanism.side(b)],
-            points,
-            range: [from.max(0.0), to],
+        // The ground comes first.
+        let [a, b] = if between[1].is_none() { [1, 0] } else { [0, 1] };
+        let sides = Sides { between: [between[a], between[b]], at: [points[a], points[b]] };
+        let mut keys = vec![sides.points(mechanism)];
+        keys.push(format!("from = {}\nto = {}", number(from.max(0.0)), number(to)));
+        keys.extend(mechanism.stop(None));
+        let name = mechanism.own_name(&format!("{name}-range"));
+        mechanism.interactions.push(Interaction {
+            name,
+            law: "distance-stop",
+            between: sides.between,
+            keys,
             source: (words.clone(), element.place),
-        };
-        mechanism.ropes.push(rope);
+        });
     }
     let coordinate = Coordinate::Length { between, points };
     let mut made = None;

@@ -7,9 +7,9 @@ use std::fmt::Write as _;
 use nalgebra::Vector3;
 
 use crate::couplings::SETTLING;
-use crate::joints::{LIMIT_SPEED, RESTITUTION};
+use crate::interaction::{LIMIT_SPEED, RESTITUTION};
 use crate::mass::Solid;
-use crate::mechanism::{Axis, Mechanism, Signal, Type, rounded};
+use crate::mechanism::{Axis, Interaction, Mechanism, Signal, Type, rounded};
 use crate::notation::{fitting, line, number, snapped, text, vector};
 use crate::omission::Kind;
 use crate::options::{TOLERANCE, Weld};
@@ -87,11 +87,15 @@ fn top(
             "# Couplings without a stiffness in the file: as stiff as limits, damping {SETTLING} s times the stiffness."
         );
     }
-    if !(mechanism.contacts.is_empty() && mechanism.ropes.is_empty()) {
+    let is_stop = |one: &Interaction| one.law != "bushing";
+    if !mechanism.contacts.is_empty() || mechanism.interactions.iter().any(is_stop) {
         let _ = writeln!(
             out,
-            "# Contacts and ranges of tendons, from the options: as stiff as joints; an impact at {LIMIT_SPEED} m/s rebounds at {RESTITUTION} of that speed."
+            "# Contacts, ranges of tendons and of slides, from the options: as stiff as joints; an impact at {LIMIT_SPEED} m/s rebounds at {RESTITUTION} of that speed."
         );
+    }
+    if mechanism.interactions.iter().any(|one| one.law == "bushing") {
+        out.push_str("# Bushings: two slides of one body from the world, alone or with a hinge across them.\n");
     }
     if options.weld == Weld::Merge {
         out.push_str("# Bodies without joints are merged with their parents.\n");
@@ -266,21 +270,11 @@ fn springs(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         let _ = writeln!(out, "damping = {}", number(spring.damping));
         let _ = writeln!(out, "preload = {}", number(spring.preload));
     }
-    for rope in &mechanism.ropes {
+    for Interaction { name, law, between: sides, keys, source } in &mechanism.interactions {
         out.push('\n');
-        comment(out, &rope.source, texts);
-        let _ = writeln!(out, "[[interaction]]\nname = {}", text(&rope.name));
-        let _ = writeln!(out, "law = \"distance-stop\"");
-        // The ground comes first.
-        let [a, b] = if rope.between[1].is_none() { [1, 0] } else { [0, 1] };
-        let sides = [rope.between[a], rope.between[b]];
-        let _ = writeln!(out, "between = {}", between(mechanism, sides));
-        let [first, second] =
-            [a, b].map(|i| vector(mechanism.within(rope.between[i], rope.points[i]), size));
-        let _ = writeln!(out, "points = [{first}, {second}]");
-        let [from, to] = rope.range.map(number);
-        let _ = writeln!(out, "from = {from}\nto = {to}");
-        stop(out, mechanism);
+        comment(out, source, texts);
+        let _ = writeln!(out, "[[interaction]]\nname = {}\nlaw = \"{law}\"", text(name));
+        let _ = writeln!(out, "between = {}\n{}", between(mechanism, *sides), keys.join("\n"));
     }
     for coupling in &mechanism.couplings {
         out.push('\n');
@@ -322,7 +316,7 @@ fn contacts(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         let _ = writeln!(out, "points = [{ground}, {centre}]");
         let _ = writeln!(out, "normal = {}", vector(contact.normal, 1.0));
         let _ = writeln!(out, "radius = {}", number(contact.radius));
-        stop(out, mechanism);
+        let _ = writeln!(out, "{}", mechanism.stop(None).join("\n"));
         if contact.friction > 0.0 {
             let _ = writeln!(out, "friction = {}", number(contact.friction));
             let _ = writeln!(out, "damping = {}", number(contact.damping));
@@ -331,13 +325,6 @@ fn contacts(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
             let _ = writeln!(out, "rolling = {}", number(contact.rolling));
         }
     }
-}
-
-/// Stiffness and dissipation of a stop.
-fn stop(out: &mut String, mechanism: &Mechanism<'_>) {
-    let _ = writeln!(out, "stiffness = {}", number(mechanism.options.stiffness));
-    let dissipation = dbd_scene::laws::dissipation(RESTITUTION, LIMIT_SPEED);
-    let _ = writeln!(out, "dissipation = {}", number(rounded(dissipation)));
 }
 
 /// Visible shapes of geoms, in the axes of their bodies.

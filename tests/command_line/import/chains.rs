@@ -48,6 +48,28 @@ fn a_body_may_slide_and_turn_in_the_plane() {
     assert!(worst(&found) < 1e-5, "{found:?}");
 }
 
+/// Two slides at right angles, alone and with a hinge across them, of a model in space: bushings, with springs, a servo,
+/// motors, one of them at a tendon of one joint, and stops, whose rebounds are not MuJoCo's.
+#[test]
+fn a_body_may_slide_along_two_axes_in_space() {
+    let of = |stiffness: f64| {
+        let made = imported("two-slides.xml", &start(stiffness));
+        let scene = loaded(&made);
+        assert!(scene.planar.is_none() && scene.joints.len() == 2, "{}", made.scene);
+        let laws = |law: &str| made.scene.matches(&format!("law = \"{law}\"")).count();
+        // Four bodies, a spring, a damper and a servo along slides, and the damper of the trunk's slide.
+        assert_eq!([laws("bushing"), laws("end-stop"), laws("hinge-stop")], [8, 4, 1]);
+        distances(&scene, "tests/command_line/import/two-slides.csv")
+    };
+    let (soft, stiff) = (of(1e6), of(1e7));
+    let apart = |of: &[(String, f64)], name: &str| of.iter().find(|(one, _)| one == name).unwrap().1;
+    for name in ["table", "bob", "trunk", "leg", "sledge"] {
+        let [soft, stiff] = [&soft, &stiff].map(|of| apart(of, name));
+        assert!(stiff < 1e-5 && stiff < soft / 5.0, "{name}: {soft} {stiff}");
+    }
+    assert!(apart(&stiff, "puck") < 2e-3, "{stiff:?}");
+}
+
 /// Balls, a capsule and boxes on a slope roll, slip, slide and stay: off by what contacts give way, and by what
 /// MuJoCo's are off.
 #[test]
