@@ -31,8 +31,8 @@ pub(crate) enum Way {
     Free,
     /// Two slides and a hinge across them from the world, in a planar scene: no joint.
     Plane,
-    /// Two slides at right angles from the world, alone or followed by a hinge across them: a bushing without
-    /// stiffness along the slides and about the hinge.
+    /// Two slides at right angles, alone or followed by a hinge across them: a bushing without stiffness along the
+    /// slides and about the hinge. A motor may act on a slide from the world only.
     Level,
 }
 
@@ -58,9 +58,12 @@ pub(crate) struct Circumstances {
 }
 
 impl Circumstances {
+    fn drives(&self, joint: &Joint) -> bool {
+        joint.name.as_ref().is_some_and(|name| self.driven.contains(name))
+    }
+
     fn acts(&self, joint: &Joint) -> bool {
-        let driven = joint.name.as_ref().is_some_and(|name| self.driven.contains(name));
-        joint.stiffness > 0.0 || joint.damping > 0.0 || driven
+        joint.stiffness > 0.0 || joint.damping > 0.0 || self.drives(joint)
     }
 }
 
@@ -95,11 +98,12 @@ fn of_body(
         Some(Way::Free)
     } else if around.planar && is_plane(&joints, around) {
         Some(Way::Plane)
-    } else if is_level(&joints) {
-        Some(Way::Level)
     } else {
         None
     };
+    let pushed = |joint: &&&Joint| joint.freedom == Freedom::Slide && around.drives(joint);
+    let reached = base == WORLD || !joints.iter().any(|joint| pushed(&joint));
+    let whole = whole.or((reached && is_level(&joints)).then_some(Way::Level));
     if let (Some(way), Some(body)) = (whole, rest.last()) {
         found.push(Stage { base, body: *body, joints: rest.to_vec(), way });
         return;

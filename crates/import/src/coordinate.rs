@@ -77,10 +77,10 @@ pub(crate) enum Coordinate {
         /// Its normal in the plane.
         across: Vector3<f64>,
     },
-    /// Translation of a part along an axis of the world, beside another translation.
+    /// Translation of the second body along an axis of the first, beside another translation.
     Level {
-        /// The part.
-        part: usize,
+        /// The bodies.
+        between: [Side; 2],
         /// \[m\] the translated point.
         at: Vector3<f64>,
         /// Direction of translation.

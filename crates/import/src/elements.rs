@@ -91,8 +91,7 @@ impl Coordinate {
                     source,
                 });
             }
-            Self::Level { part, at, axis, across } => {
-                let between = [None, Some(part)];
+            Self::Level { between, at, axis, across } => {
                 let sides = Sides { between, at: [at + axis * law.zero(), at] };
                 let along = [[stiffness, 0.0, 0.0], [damping, 0.0, 0.0]];
                 let keys = bushing(mechanism, &sides, [axis, across], along, [[0.0; 3]; 2]);
@@ -123,10 +122,15 @@ impl Coordinate {
             Self::Slide { .. } => ("actuator", vec![format!("target = {}", text(element))], 1.0),
             // A TSDA pulls its endpoints together.
             Self::Length { .. } => ("actuator", vec![format!("target = {}", text(element))], -1.0),
-            Self::Shift { part, at, axis, .. } | Self::Level { part, at, axis, .. } => {
-                let point = mechanism.within(Some(*part), *at);
+            Self::Shift { at, axis, .. } | Self::Level { at, axis, .. } => {
+                let part = match self {
+                    Self::Level { between, .. } => between[1],
+                    Self::Shift { part, .. } => Some(*part),
+                    _ => None,
+                };
+                let point = mechanism.within(part, *at);
                 let keys = vec![
-                    format!("body = {}", text(mechanism.name(Some(*part)))),
+                    format!("body = {}", text(mechanism.name(part))),
                     format!("point = {}", crate::notation::vector(point, mechanism.size())),
                     format!("axis = {}", vector(*axis)),
                 ];

@@ -177,8 +177,7 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
                 Coordinate::Shift { part, at, axis, across }
             }
             (Way::Level, Freedom::Slide) => {
-                let Some(part) = mechanism.side(stage.body) else { continue };
-                Coordinate::Level { part, at, axis, across: axes[1 - number] }
+                Coordinate::Level { between, at, axis, across: axes[1 - number] }
             }
             (_, Freedom::Slide) => {
                 let known = mechanism.axes.get(&body);

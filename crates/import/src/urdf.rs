@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use dbd_scene::nearest;
-use nalgebra::{Matrix3, Rotation3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::defaults::Attributes;
 use crate::element::{Attribute, Element};
@@ -179,10 +179,11 @@ impl<'e> Joint<'e> {
             Err(Fault::at(link.place, format!("unknown link `{}`", link.value), help))
         };
         let (parent, child) = (end("parent")?, end("child")?);
-        if known == "planar" {
-            let what =
-                format!("{}: planar joint; use two slides and a hinge instead", element.called());
-            omissions.add(Kind::Joints, element.place, what);
+        for (part, kind) in [("limit", Kind::Limit), ("dynamics", Kind::Spring)] {
+            if let (Some(part), "planar") = (element.sections(part).next(), known) {
+                let what = format!("{}: <{}> of a planar joint", element.called(), part.name);
+                omissions.add(kind, part.place, what);
+            }
         }
         Ok(Self { element, name, kind: known, parent, child })
     }
@@ -198,7 +199,35 @@ impl<'e> Joint<'e> {
         Attributes::own(part).number(name)
     }
 
-    /// As an MJCF joint; `None` without degrees of freedom.
+    /// As MJCF joints; none without degrees of freedom.
+    fn freedoms(&self) -> Result<Vec<Element>, Fault> {
+        if self.kind != "planar" {
+            return Ok(self.freedom()?.into_iter().collect());
+        }
+        // The axis is normal to the plane.
+        let given = self.element.sections("axis").next();
+        let axis = given.map(|axis| Attributes::own(axis).vector("xyz")).transpose()?.flatten();
+        let normal = axis.unwrap_or_else(Vector3::x);
+        let least = normal.iamin();
+        let first = normal.cross(&Vector3::ith(least, 1.0));
+        let axes =
+            [("-x", "slide", first), ("-y", "slide", normal.cross(&first)), ("", "hinge", normal)];
+        let one = |(end, kind, axis): (&str, &str, Vector3<f64>)| {
+            let mut joint = empty("joint", self.element.place);
+            let [x, y, z] = axis.into();
+            let values = [
+                ("name", format!("{}{end}", self.name.value)),
+                ("type", kind.to_owned()),
+                ("axis", format!("{x:?} {y:?} {z:?}")),
+            ];
+            let values = values.iter().map(|(name, value)| attribute(name, value, self.name.place));
+            joint.attributes.extend(values);
+            joint
+        };
+        Ok(axes.map(one).to_vec())
+    }
+
+    /// As an MJCF joint of one degree of freedom or six; `None` without.
     fn freedom(&self) -> Result<Option<Element>, Fault> {
         let mut joint = empty("joint", self.element.place);
         let kind = match self.kind {
@@ -270,7 +299,7 @@ impl Robot<'_> {
         body.attributes.push(attribute("name", name, place));
         if let Some(joint) = joint {
             body.attributes.extend(pose(joint.element)?);
-            body.children.extend(joint.freedom()?);
+            body.children.extend(joint.freedoms()?);
         }
         body.children.extend(inertial(link)?);
         for (section, touches) in [("visual", false), ("collision", true)] {

@@ -62,7 +62,8 @@ fn a_body_may_slide_along_two_axes_in_space() {
         distances(&scene, "tests/command_line/import/two-slides.csv")
     };
     let (soft, stiff) = (of(1e6), of(1e7));
-    let apart = |of: &[(String, f64)], name: &str| of.iter().find(|(one, _)| one == name).unwrap().1;
+    let apart =
+        |of: &[(String, f64)], name: &str| of.iter().find(|(one, _)| one == name).unwrap().1;
     for name in ["table", "bob", "trunk", "leg", "sledge"] {
         let [soft, stiff] = [&soft, &stiff].map(|of| apart(of, name));
         assert!(stiff < 1e-5 && stiff < soft / 5.0, "{name}: {soft} {stiff}");
@@ -126,19 +127,22 @@ const X: &str = "<joint name='x' type='slide' axis='1 0 0'/>";
 const Y: &str = "<joint name='y' type='slide' axis='0 1 0'/>";
 const A: &str = "<joint name='p' axis='1 0 0' stiffness='1'/>";
 const B: &str = "<joint name='q' axis='0 1 0'/>";
+const SKEW: &str = "<joint name='y' type='slide' axis='0.1 1 0'/>";
 const C: &str = "<joint name='w' axis='0 0 1'/>";
 
 /// Which joints a scene says them with; a carrier takes no mass but that of its neighbours.
 #[test]
 fn joints_of_a_body_are_said_by_the_fewest_joints() {
     let skew = "<joint name='q' axis='0 1 0' pos='0 0 0.01'/>";
-    let cases: [(String, bool, &[&str], usize); 7] = [
+    let cases: [(String, bool, &[&str], usize); 9] = [
         ([A, B].concat(), true, &["universal"], 2),
         ([A, skew].concat(), true, &["revolute", "revolute"], 3),
         ([A, X].concat(), true, &["cylindrical"], 2),
         ([X, C].concat(), true, &["translational", "revolute"], 3),
         ([C, X].concat(), false, &["revolute", "translational"], 2),
         ([B, C, "<joint axis='1 0 0.1'/>"].concat(), true, &["spherical"], 2),
+        ([X, Y].concat(), true, &[], 2),
+        ([X, Y, C].concat(), true, &[], 2),
         ([A, "<joint type='ball' pos='0 0 0.1'/>"].concat(), true, &["revolute", "spherical"], 3),
     ];
     for (joints, parent, kinds, bodies) in cases {
@@ -161,7 +165,7 @@ fn joints_of_a_body_are_said_by_the_fewest_joints() {
 fn joints_that_cannot_be_said_exactly_are_refused() {
     let spring = "<joint name='q' axis='0 1 0' damping='0.1'/>";
     for (joints, named) in
-        [([X, Y, C].concat(), "slide `y`"), ([A, spring, C].concat(), "hinge `w`")]
+        [([X, SKEW, C].concat(), "slide `y`"), ([A, spring, C].concat(), "hinge `w`")]
     {
         let text = body(&joints, true);
         let refused = import_text(&text, "test.xml", "".as_ref(), &Options::default());
@@ -178,7 +182,7 @@ fn joints_that_cannot_be_said_exactly_are_refused() {
         assert_eq!(scene.body_names, ["a", "b"]);
         assert_eq!(scene.joints.len(), 2);
     }
-    let spatial = body(&[X, Y, C].concat(), false);
+    let spatial = body(&[X, SKEW, C].concat(), false);
     let refused = import_text(&spatial, "test.xml", "".as_ref(), &Options::default());
     let Err(ImportError::Omitted { omissions, .. }) = refused else { panic!("{refused:?}") };
     assert!(omissions[0].what.contains("the model is not planar"), "{omissions:?}");

@@ -41,7 +41,8 @@ fn joint(kind: &str, more: &str) -> String {
     format!("<joint name='j' type='{kind}'><parent link='a'/><child link='b'/>{more}</joint>")
 }
 
-/// A link without a joint is fixed; `world` is the ground; equal limits set no range; a floating link is free.
+/// A link without a joint is fixed; `world` is the ground; equal limits set no range; a floating link is free, one on a plane has
+/// three freedoms.
 #[test]
 fn links_and_joints_are_taken_as_mujoco_takes_them() {
     let scene = loaded(&of(
@@ -53,6 +54,9 @@ fn links_and_joints_are_taken_as_mujoco_takes_them() {
     let free = loaded(&of(&text, &Options::default()));
     assert_eq!((free.body_names.len(), free.joints.len()), (1, 0));
     assert_eq!(free.model.gravity[0].to_f64(), [0.0, 0.0, -9.81]);
+    let flat = loaded(&of(&robot(&joint("planar", "<axis xyz='0 0 2'/>")), &Options::default()));
+    let laws: Vec<&str> = dbd_scene::interactions(&flat).iter().map(|one| one.law).collect();
+    assert_eq!((flat.body_names.len(), flat.joints.len(), &laws[..]), (1, 0, &["bushing"][..]));
     // What a URDF says to MuJoCo.
     let heavy = "<mujoco><compiler settotalmass='3'/><option gravity='0 0 0'/></mujoco>";
     let scene =
@@ -111,7 +115,7 @@ fn what_is_no_tree_of_links_is_refused_where_it_stands() {
     }
     for (more, kind, says) in [
         ("<joit name='j'/>", Kind::Unknown, "<joint>"),
-        (&joint("planar", ""), Kind::Joints, "two slides and a hinge"),
+        (&joint("planar", "<dynamics damping='1'/>"), Kind::Spring, "planar joint"),
         (
             "<transmission name='t'><joint name='none'/></transmission>",
             Kind::Actuator,
@@ -132,7 +136,7 @@ fn what_is_no_tree_of_links_is_refused_where_it_stands() {
             "{more}<link name='c'>{INERTIAL}</link>{}",
             joint("revolute", "").replace("'j'", "'k'").replace("'b'", "'c'")
         );
-        let text = if kind == Kind::Joints { robot(&planar) } else { text };
+        let text = if kind == Kind::Spring { robot(&planar) } else { text };
         let made = import_text(&text, "r.urdf", Path::new(""), &Options::default());
         let Err(ImportError::Omitted { omissions, .. }) = made else { panic!("{more}: {made:?}") };
         let found = omissions.iter().any(|one| one.kind == kind && one.what.contains(says));
