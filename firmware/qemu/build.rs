@@ -80,6 +80,9 @@ fn main() {
         Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("the repository's root");
     println!("cargo:rerun-if-changed=build.rs");
     models();
+    if std::env::var_os("CARGO_FEATURE_ELEMENTS").is_some() {
+        elements();
+    }
     if std::env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("none") {
         link_arguments(root);
     }
@@ -160,17 +163,6 @@ fn models() {
             "/// The scene `{name}` without its tables.\npub mod {module} {{\n{source}}}\n"
         );
     }
-    let list = |name: &str, of: &str, lines: &str| {
-        format!(
-            "/// Calls a macro with all models {of}: module, name, step, static and type.\n\
-             #[macro_export]\n\
-             macro_rules! {name} {{\n    \
-                 ($then:path) => {{\n        \
-                     $then! {{\n{lines}        }}\n    \
-                 }};\n\
-             }}\n"
-        )
-    };
     let source = modules
         + &list("shipped", "shipped in both precisions", &both)
         + &list("shipped_f32", "shipped in single precision", &f32)
@@ -181,6 +173,43 @@ fn models() {
         + &list("solved_fixed", "with the plan of a matrix in fixed point", &solved[2])
         + &list("varied", "of scenes with other values", &varied);
     write("models.rs", &source);
+}
+
+/// Models of the plain scene of `elements/`, and of it with each element, in single precision; the macro `elements`.
+fn elements() {
+    println!("cargo:rerun-if-changed=elements");
+    let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    let mut files: Vec<PathBuf> = std::fs::read_dir("elements")
+        .and_then(|files| files.map(|file| file.map(|file| file.path())).collect())
+        .expect("the folder elements");
+    files.sort();
+    let read = |file: &Path| std::fs::read_to_string(file).expect("a file of elements");
+    let plain = read(Path::new("elements/plain.toml"));
+    let (mut modules, mut lines) = (String::new(), String::new());
+    for file in &files {
+        let name = file.file_stem().and_then(|stem| stem.to_str()).expect("a name");
+        let more = if name == "plain" { String::new() } else { read(file) };
+        write(&format!("{name}.toml"), &(plain.clone() + &more));
+        let source = source(&Build::scene(out.join(name).with_extension("toml")).precision("f32"));
+        let module = export::constant_name(name).to_lowercase();
+        modules += &format!("/// The scene with `{name}`.\npub mod {module} {{\n{source}}}\n");
+        lines +=
+            &format!("            {module} \"{name}\" ELEMENTS_STEP, ELEMENTS_F32: ElementsF32;\n");
+    }
+    write("elements.rs", &(modules + &list("elements", "of an element", &lines)));
+}
+
+/// A macro that calls another with all models of a list.
+fn list(name: &str, of: &str, lines: &str) -> String {
+    format!(
+        "/// Calls a macro with all models {of}: module, name, step, static and type.\n\
+         #[macro_export]\n\
+         macro_rules! {name} {{\n    \
+             ($then:path) => {{\n        \
+                 $then! {{\n{lines}        }}\n    \
+             }};\n\
+         }}\n"
+    )
 }
 
 /// The source of a scene; where there is none, cargo is told why.

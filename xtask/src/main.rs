@@ -107,6 +107,9 @@ enum Command {
         /// Count the cost of the guards of the sample's models, and write docs/results/guards.csv.
         #[arg(long, conflicts_with_all = ["compare", "scenes", "baseline"])]
         guards: bool,
+        /// Count what a step costs more with each element, and write docs/results/elements.csv.
+        #[arg(long, conflicts_with_all = ["compare", "scenes", "baseline", "guards"])]
+        elements: bool,
     },
     /// Counts the instructions of a step on this machine, by valgrind's callgrind, compared with the flops of a
     /// step, a plain loop and the baseline of this compiler and target.
@@ -225,6 +228,7 @@ fn main() -> ExitCode {
         Command::Fw { name, long, arguments } => firmware::run(&name, long, &arguments),
         Command::Cost { baseline: true, .. } => cost::baseline(),
         Command::Cost { guards: true, .. } => cost::guards::run(),
+        Command::Cost { elements: true, .. } => cost::elements::run(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Instructions { baseline } => instructions::run(baseline),
         Command::Growth => growth::run(),

@@ -12,7 +12,7 @@
 //! - [`root`], [`sensors`], [`trajectory`], [`relay`]: square roots, sensors on a script, a recorded run, a run in two halves.
 //! - [`mod@hash`]: hashes of shipped models.
 //! - [`board`]: the hardware.
-//! - [`chart`], [`sample`]: which models and schemes are counted.
+//! - [`chart`], [`sample`], `elements`: which models and schemes are counted.
 //! - `cost`, `guards`: instructions and memory of a step, on the target only.
 //! - [`controllers`], [`wiring`], [`closed_loop`], [`hil`]: controllers in a loop with a plant here or outside.
 #![cfg_attr(target_os = "none", no_std)]
@@ -27,6 +27,8 @@ pub mod chart;
 pub mod closed_loop;
 pub mod console;
 pub mod controllers;
+#[cfg(feature = "elements")]
+pub mod elements;
 pub mod hash;
 pub mod hil;
 pub mod relay;

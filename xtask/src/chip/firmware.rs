@@ -29,12 +29,13 @@ const AUDIT: &str = "audit";
 pub const LIBRARIES: &str = "core,alloc";
 
 /// Programs that can be run, each with the image that holds it.
-const PROGRAMS: [(&str, &str); 14] = [
+const PROGRAMS: [(&str, &str); 15] = [
     ("board", SHARED),
     ("cost", "cost"),
     ("cost-double", "cost-double"),
     ("cost-fixed", "cost-fixed"),
     ("cost-solved", "cost-solved"),
+    ("elements", "elements"),
     ("guards", "guards"),
     ("hash", SHARED),
     (HIL, HIL),

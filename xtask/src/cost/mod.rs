@@ -8,6 +8,7 @@
 pub mod baseline;
 mod compare;
 mod cycles;
+pub mod elements;
 mod goals;
 pub mod guards;
 mod mix;

@@ -1,0 +1,53 @@
+//! The table of what an element costs on a microcontroller: `docs/elements.md`.
+
+use dbd_tests::page::{block, grouped, table};
+use dbd_tests::results::rows;
+
+/// Elements as counted: name of the scene, what it is, the most instructions that it ought to cost.
+const ELEMENTS: [(&str, &str, Option<f64>); 14] = [
+    ("tsda", "a TSDA without damping", None),
+    ("spring-table", "`distance-spring`, five knots", None),
+    ("limits-free", "`limits` of a revolute joint with dissipation, within the range", Some(250.0)),
+    ("limits-reached", "the same, beyond it", Some(250.0)),
+    ("friction", "`friction` of a revolute joint, Coulomb's", Some(350.0)),
+    ("friction-stribeck", "the same with breakaway, Stribeck's and viscous friction", Some(350.0)),
+    ("servo", "position servo with a limit", None),
+    ("drive", "voltage drive with winding, rotor and gear", Some(700.0)),
+    ("drive-play", "the same with clearance, the teeth apart", Some(700.0)),
+    ("coupling", "coupling of two revolute joints with damping", None),
+    (
+        "contact-free",
+        "`plane-contact` with friction, damping and rolling resistance, apart",
+        Some(900.0),
+    ),
+    ("contact-pressed", "the same, in contact", Some(900.0)),
+    ("bushing-undamped", "`bushing` without damping", None),
+    ("bushing", "`bushing` with six dampings", None),
+];
+
+#[test]
+fn the_page_has_what_each_element_costs() {
+    let counted = rows("docs/results/elements.csv");
+    let find = |name: &str| counted.iter().find(|row| row.text("element") == name);
+    let plain = find("plain").expect("the plain scene");
+    assert_eq!(counted.len(), ELEMENTS.len() + 1, "an element is missing in a list");
+    let mut lines = vec![vec![
+        "two links on revolute joints, without an element".to_owned(),
+        grouped(plain.text("instructions_mean")),
+        String::new(),
+        grouped(plain.text("rodata_bytes")),
+        grouped(plain.text("plant_ram_bytes")),
+    ]];
+    for (name, what, goal) in ELEMENTS {
+        let row = find(name).unwrap_or_else(|| panic!("{name} was not counted"));
+        let goal = goal.map_or(String::new(), |goal| {
+            let met = if row.number("instructions_mean") <= goal { "met" } else { "not met" };
+            format!("{goal}, {met}")
+        });
+        let counts = ["rodata_bytes", "plant_ram_bytes"].map(|column| grouped(row.text(column)));
+        let instructions = grouped(row.text("instructions_mean"));
+        lines.push([vec![what.to_owned(), instructions, goal], counts.to_vec()].concat());
+    }
+    let head = ["element", "instructions per step", "goal", "model, bytes", "plant, bytes"];
+    block("docs/elements.md", "costs", &table(&head, &lines));
+}
