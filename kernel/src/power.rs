@@ -94,7 +94,7 @@ pub fn power<M: ModelOwner>(
 }
 
 /// \[W\] the power of drives among the laws, and the power of dampers beyond that taken from the bodies: on the laws'
-/// internal degrees of freedom, minus the power of a drive's dampers.
+/// internal degrees of freedom and on inputs that move their dampers, minus the power of a drive's dampers.
 fn of_drives<M: ModelOwner>(
     view: &ModelRef<'_, M::Precision, M::Terms>,
     state: &State<M>,
@@ -106,6 +106,7 @@ fn of_drives<M: ModelOwner>(
         let Some(seen) = at.seen(law.bodies()) else { return };
         let [supplied, taken] = &mut sums;
         *supplied = *supplied + law.supply(&seen);
+        let driven = law.driven_rate(&seen);
         let own = law.inner().map_or(RealOf::<M>::ZERO, |inner| inner.rate);
         law.each_damper(&seen, &mut |_, damper| {
             let rate = seen.rate(&damper.direction);
@@ -115,7 +116,8 @@ fn of_drives<M: ModelOwner>(
                 *supplied = *supplied - tension * rate;
                 *taken = *taken - tension * rate;
             } else {
-                *taken = *taken + tension * inner;
+                *supplied = *supplied - tension * driven;
+                *taken = *taken + tension * (inner - driven);
             }
         });
     });

@@ -85,7 +85,7 @@ impl<R: Real> KnotStep<R> {
 pub struct Signal<R> {
     /// \[N, N·m or m\] by the kind of its input.
     pub value: R,
-    /// \[m/s\] for an anchor; unused by other kinds.
+    /// \[m/s, rad/s\] for an anchor and for laws that read it; unused by other kinds.
     pub rate: R,
 }
 

@@ -274,7 +274,7 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
     }
 
     fn check(&self) -> Result<(), Wrong> {
-        let (zero, one) = (P::Real::ZERO, P::Real::ONE);
+        let zero = P::Real::ZERO;
         for term in self.terms.iter().flatten() {
             Wrong::unless(term.factor != zero, "factor", "is 0", "a factor other than 0")?;
         }
@@ -283,15 +283,21 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
         Wrong::unless(self.stiffness > zero, "stiffness", "is not positive", "a stiffness > 0")?;
         Wrong::unless(self.damping >= zero, "damping", "is negative", "a number ≥ 0")?;
         Wrong::unless(self.play >= zero, "play", "is negative", "a number ≥ 0")?;
-        for (name, number) in [("pulls", self.pulls), ("pushes", self.pushes)] {
-            Wrong::unless(number == zero || number == one, name, "is neither 0 nor 1", "0 or 1")?;
-        }
-        let acts = self.pulls == one || self.pushes == one;
-        Wrong::unless(acts, "pulls", "is 0, and so is `pushes`", "1 unless `pushes` is 1")
+        sides(self.pulls, self.pushes)
     }
 
     fn read(&self, quantity: usize, seen: &Seen<'_, P>, memory: &Sum<P::Real>) -> P::Real {
         let Some(sum) = self.sum(seen, memory) else { return P::Real::ZERO };
         if quantity == 0 { self.stiffness * self.deformation(sum) } else { sum - self.offset }
     }
+}
+
+/// Refuses `pulls` and `pushes` other than 0 or 1, or both 0.
+pub(super) fn sides<R: Real>(pulls: R, pushes: R) -> Result<(), Wrong> {
+    let (zero, one) = (R::ZERO, R::ONE);
+    for (name, number) in [("pulls", pulls), ("pushes", pushes)] {
+        Wrong::unless(number == zero || number == one, name, "is neither 0 nor 1", "0 or 1")?;
+    }
+    let acts = pulls == one || pushes == one;
+    Wrong::unless(acts, "pulls", "is 0, and so is `pushes`", "1 unless `pushes` is 1")
 }

@@ -332,8 +332,14 @@ pub trait Interaction<P: Geometry>: Constants<P> {
         P::Real::ZERO
     }
 
-    /// \[W\] the power of the drive of its internal degree of freedom.
+    /// \[W\] the power of the drive of its internal degree of freedom, or of an input that moves its springs.
     fn supply(&self, _seen: &Seen<'_, P>, _state: &Self::State) -> P::Real {
+        P::Real::ZERO
+    }
+
+    /// \[m/s, rad/s\] the part of its dampers' target rate that an input gives: its power is that of the input. Not for
+    /// [`Self::DRIVES`].
+    fn driven_rate(&self, _seen: &Seen<'_, P>) -> P::Real {
         P::Real::ZERO
     }
 

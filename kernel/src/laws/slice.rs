@@ -246,6 +246,9 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
     fn supply(&self, seen: &Seen<'_, P>) -> P::Real {
         self.law.supply(seen, self.state)
     }
+    fn driven_rate(&self, seen: &Seen<'_, P>) -> P::Real {
+        self.law.driven_rate(seen)
+    }
     fn quantities(&self) -> &'static [Quantity] {
         T::QUANTITIES
     }

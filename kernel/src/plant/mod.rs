@@ -223,7 +223,8 @@ where
     }
 
     /// Sets an input with its rate: for an anchor the displacement \[m\] and its velocity \[m/s\], on which its dampers
-    /// act; the other kinds do not use the rate. Each number is rounded once to the precision.
+    /// act, for a signal what its law makes of both; the other kinds do not use the rate. Each number is rounded once
+    /// to the precision.
     ///
     /// # Errors
     /// [`InputError`]; nothing is changed then.

@@ -5,6 +5,7 @@
 
 use dbd_kernel::attitude::Attitude as _;
 use dbd_kernel::laws::{ForcePair, Instant, Interaction, Law, Seen};
+use dbd_kernel::schedule::Signal;
 use dbd_kernel::words::Words as _;
 use dbd_kernel::{BodyState, F64, Geometry as _, Quaternion, Vec3};
 
@@ -21,11 +22,13 @@ pub struct Poses {
     pub turn: f64,
     /// \[m/s, rad/s\] largest speed of the bodies.
     pub speed: f64,
+    /// \[its unit\] value of the input with index 0.
+    pub input: f64,
 }
 
 impl Default for Poses {
     fn default() -> Self {
-        Self { count: 200, reach: 0.1, turn: 1.0, speed: 1.0 }
+        Self { count: 200, reach: 0.1, turn: 1.0, speed: 1.0, input: 0.0 }
     }
 }
 
@@ -51,15 +54,16 @@ pub fn hold<L: Law>(law: &L, poses: Poses) -> Result<(), String> {
     let mut met = false;
     for number in 0..poses.count {
         let state = random.state(poses);
-        met |= at(law, &state).map_err(|why| format!("pose {number}: {why}"))?;
+        met |= at(law, &state, poses.input).map_err(|why| format!("pose {number}: {why}"))?;
     }
     if met { Ok(()) } else { Err("the law has no effect at any pose: use another `reach`".into()) }
 }
 
 /// Checks the rules at a pose; returns whether the law has an effect there.
-fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
+fn at<L: Law>(law: &L, state: &State, input: f64) -> Result<bool, String> {
     let frames = frames(state);
-    let instant = Instant { frames: &frames, bodies: state, signals: &[] };
+    let signals = [Signal { value: input, rate: 0.0 }];
+    let instant = Instant { frames: &frames, bodies: state, signals: &signals };
     let Some(seen) = instant.seen(law.bodies()) else {
         return Err("the law's bodies are not 0 and 1".into());
     };
@@ -84,8 +88,8 @@ fn at<L: Law>(law: &L, state: &State) -> Result<bool, String> {
     let forces = generalised(&force_pair);
     let size = forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
     momentum(state, &force_pair)?;
-    gradient(law, state, &memory, &forces, size)?;
-    tangent(law, state, &memory, &seen)?;
+    gradient(law, (state, input), &memory, &forces, size)?;
+    tangent(law, (state, input), &memory, &seen)?;
     let mut acts = size > 0.0;
     let mut dampers = 0;
     let mut drawn = Ok(());
@@ -123,14 +127,14 @@ fn momentum(state: &State, force_pair: &ForcePair<f64>) -> Result<(), String> {
 /// Force is minus the gradient of the energy, where the gradient exists.
 fn gradient<L: Law>(
     law: &L,
-    state: &State,
+    (state, input): (&State, f64),
     memory: &<L as Interaction<F64>>::State,
     forces: &Twelve,
     size: f64,
 ) -> Result<(), String> {
     let energy = |way: &Twelve, by: f64| {
         let moved = moved(state, way, by);
-        look(law, &moved, |seen| law.energy(seen, memory))
+        look(law, (&moved, input), |seen| law.energy(seen, memory))
     };
     for freedom in 0..12 {
         let mut way = [0.0; 12];
@@ -155,13 +159,13 @@ fn gradient<L: Law>(
 /// No displacement of one body changes its force by more than the tangent.
 fn tangent<L: Law>(
     law: &L,
-    state: &State,
+    (state, input): (&State, f64),
     memory: &<L as Interaction<F64>>::State,
     seen: &Seen<'_, F64>,
 ) -> Result<(), String> {
     let forces = |way: &Twelve, by: f64| {
         let moved = moved(state, way, by);
-        look(law, &moved, |seen| {
+        look(law, (&moved, input), |seen| {
             law.force_pair(seen, memory).map(|force_pair| generalised(&force_pair))
         })
     };
@@ -204,12 +208,17 @@ fn tangent<L: Law>(
 }
 
 /// Evaluates a law at a pose.
-fn look<L: Law, A>(law: &L, state: &State, look: impl FnOnce(&Seen<'_, F64>) -> A) -> A
+fn look<L: Law, A>(
+    law: &L,
+    (state, input): (&State, f64),
+    look: impl FnOnce(&Seen<'_, F64>) -> A,
+) -> A
 where
     A: Default,
 {
     let frames = frames(state);
-    let instant = Instant { frames: &frames, bodies: state, signals: &[] };
+    let signals = [Signal { value: input, rate: 0.0 }];
+    let instant = Instant { frames: &frames, bodies: state, signals: &signals };
     instant.seen(law.bodies()).map_or_else(A::default, |seen| look(&seen))
 }
 

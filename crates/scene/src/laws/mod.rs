@@ -55,6 +55,7 @@ pub fn known_laws() -> Vec<KnownLaw> {
         KnownLaw::of::<laws::Bushing>("dbd_kernel::laws::Bushing"),
         KnownLaw::of::<laws::DistanceSpring>("dbd_kernel::laws::DistanceSpring"),
         KnownLaw::of::<laws::DistanceDamper>("dbd_kernel::laws::DistanceDamper"),
+        KnownLaw::of::<laws::DistanceWinch>("dbd_kernel::laws::DistanceWinch"),
         KnownLaw::of::<laws::HingeSpring>("dbd_kernel::laws::HingeSpring"),
         KnownLaw::of::<laws::HingeDamper>("dbd_kernel::laws::HingeDamper"),
         KnownLaw::of::<laws::HingeFriction>("dbd_kernel::laws::HingeFriction"),

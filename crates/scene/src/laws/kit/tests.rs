@@ -1,8 +1,8 @@
 use super::*;
 use dbd_kernel::laws::{
-    Bushing, Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, EndStop, Hinge,
-    HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact,
-    SlideDrive, SlideFriction, SlideServo, Springs,
+    Bushing, Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop,
+    Hinge, HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop,
+    PlaneContact, SlideDrive, SlideFriction, SlideServo, Springs,
 };
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{BodyIndex, InputIndex, Real as _};
@@ -79,6 +79,19 @@ fn tables_keep_what_laws_promise() {
     let spring = DistanceSpring { bodies: BODIES, points, free_length: 0.06, force: table() };
     hold(&spring, poses).unwrap();
     hold(&DistanceDamper { bodies: BODIES, points, force: table() }, poses).unwrap();
+    let rope = DistanceWinch {
+        bodies: BODIES,
+        points,
+        input: InputIndex(0),
+        stiffness: 1e5,
+        damping: 50.0,
+        pulls: 1.0,
+        pushes: 0.0,
+    };
+    for (pulls, pushes) in [(1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+        let rope = DistanceWinch { pulls, pushes, ..rope };
+        hold(&rope, Poses { input: 0.06, ..poses }).unwrap();
+    }
     hold(&HingeSpring { bodies: BODIES, axis: hinge(), torque: table() }, poses).unwrap();
     hold(&HingeDamper { bodies: BODIES, axis: hinge(), torque: table() }, poses).unwrap();
 }

@@ -5,9 +5,9 @@
 //! shipped model with leapfrog in single precision, some in fixed point.
 
 use dbd_kernel::laws::{
-    Bushing, Coupling, DistanceDamper, DistanceSpring, DistanceStop, EndStop, HingeDamper,
-    HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact, SlideDrive,
-    SlideFriction, SlideServo,
+    Bushing, Coupling, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop,
+    HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact,
+    SlideDrive, SlideFriction, SlideServo,
 };
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
@@ -53,6 +53,7 @@ type OfTravels<P> = Lawful<
         [PlaneContact<P>; 1],
         [DistanceSpring<P>; 1],
         [DistanceDamper<P>; 1],
+        [DistanceWinch<P>; 1],
         [SlideFriction<P>; 1],
         [SlideServo<P>; 1],
         [SlideDrive<P>; 1],
