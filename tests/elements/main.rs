@@ -9,6 +9,7 @@ mod drives;
 mod examples;
 mod slides;
 mod values;
+mod winches;
 
 use dbd_plant::instance::{Blueprint, Instance, Settings};
 

@@ -7,7 +7,7 @@ use dbd_tests::page::{block, table};
 use nalgebra::{Matrix6, Vector6};
 
 use crate::drives::{ROTOR, period, wheel};
-use crate::{couplings, instance, value};
+use crate::{couplings, instance, value, winches};
 
 const G: f64 = 9.81;
 
@@ -246,6 +246,47 @@ fn cases() -> Vec<Case> {
             2e-4,
             1e-3,
             Box::new(drawn),
+        ),
+        case(
+            "distance-winch",
+            "height 0.5 s after a lift with 0.5 m/s begins",
+            "m",
+            winches::lifted(0.5, 0.0),
+            2e-4,
+            1e-5,
+            Box::new(|h| {
+                at(&winches::hoist("acts = \"tension\"", winches::LIFT), h, 0.5, "load.y")
+            }),
+        ),
+        case(
+            "distance-winch",
+            "the same, 60 N·s/m",
+            "m",
+            winches::lifted(0.5, 60.0),
+            2e-4,
+            1e-5,
+            Box::new(|h| {
+                let rope = "damping = 60\nacts = \"tension\"";
+                at(&winches::hoist(rope, winches::LIFT), h, 0.5, "load.y")
+            }),
+        ),
+        case(
+            "distance-winch",
+            "period of 10 kg that fall 0.5 m on a rope",
+            "s",
+            0.744_140_559,
+            2e-4,
+            1e-5,
+            Box::new(|h| winches::bounce(h)[0]),
+        ),
+        case(
+            "distance-winch",
+            "largest tension of that rope",
+            "N",
+            1_093.400_76,
+            2e-4,
+            1e-4,
+            Box::new(|h| winches::bounce(h)[1]),
         ),
         case(
             "slide-friction",

@@ -320,7 +320,7 @@ fn quantity_of_input(kind: &str, unit: &str) -> &'static str {
         "torque" | "joint_torque" => "torque",
         "actuator" => "tension",
         "anchor" => "shift",
-        "drive" | "signal" => quantity_of_unit(unit),
+        "drive" | "signal" | "free_length" => quantity_of_unit(unit),
         _ => "force",
     }
 }

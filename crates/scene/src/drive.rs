@@ -31,6 +31,51 @@ pub(crate) enum Drive {
     Over,
 }
 
+impl Drive {
+    /// Its value at t = 0; 0 over a read-out.
+    pub(crate) fn start(&self) -> f64 {
+        match self {
+            Self::Caller(value) => *value,
+            Self::Table(curve) => curve.at(0.0),
+            Self::Sine([amplitude, _, phase, offset]) => offset + amplitude * libm::sin(*phase),
+            Self::Periodic(curve) => {
+                let [[first, _], .., [last, _]] = curve.knots[..] else { return 0.0 };
+                curve.at(first + (-first).rem_euclid(last - first))
+            }
+            Self::Over => 0.0,
+        }
+    }
+
+    /// Its smallest value; 0 over a read-out.
+    pub(crate) fn least(&self) -> f64 {
+        match self {
+            Self::Caller(value) => *value,
+            Self::Table(curve) | Self::Periodic(curve) => curve.least(),
+            Self::Sine([amplitude, _, _, offset]) => offset - amplitude.abs(),
+            Self::Over => 0.0,
+        }
+    }
+}
+
+impl Curve {
+    /// Its smallest value.
+    pub(crate) fn least(&self) -> f64 {
+        self.knots.iter().fold(f64::INFINITY, |least, knot| least.min(knot[1]))
+    }
+
+    fn at(&self, x: f64) -> f64 {
+        let next = self.knots.partition_point(|knot| knot[0] <= x);
+        let before = next.checked_sub(1).and_then(|row| self.knots.get(row));
+        match (before, self.knots.get(next)) {
+            (Some([x0, y0]), Some([x1, y1])) if self.linear => {
+                y0 + (y1 - y0) / (x1 - x0) * (x - x0)
+            }
+            (Some([_, y]), _) | (None, Some([_, y])) => *y,
+            (None, None) => 0.0,
+        }
+    }
+}
+
 /// A table of (time or reading, value).
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Curve {

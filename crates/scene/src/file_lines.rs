@@ -1,6 +1,7 @@
 //! Line numbers of the tables of a scene.
 
 use crate::error::SceneError;
+use crate::interaction;
 use crate::text::Table;
 
 /// Lines from 1, per kind in scene order.
@@ -9,6 +10,8 @@ pub(crate) struct FileLines {
     pub(crate) bodies: Vec<usize>,
     pub(crate) joints: Vec<usize>,
     pub(crate) tsdas: Vec<usize>,
+    /// The rows of the TSDAs that are elements of the model.
+    pub(crate) raw_tsdas: Vec<usize>,
     pub(crate) points_on_lines: Vec<usize>,
     pub(crate) torsion_springs: Vec<usize>,
     pub(crate) interactions: Vec<usize>,
@@ -20,10 +23,13 @@ pub(crate) struct FileLines {
 impl FileLines {
     /// The lines of all tables of the scene.
     pub(crate) fn of(root: &Table<'_>) -> Result<Self, SceneError> {
+        let tsdas = root.lines("tsda")?;
+        let winches = interaction::winches(root)?;
         Ok(Self {
             bodies: root.lines("body")?,
             joints: root.lines("joint")?,
-            tsdas: root.lines("tsda")?,
+            raw_tsdas: (0..tsdas.len()).filter(|row| !winches.contains_key(row)).collect(),
+            tsdas,
             points_on_lines: root.lines("point_on_line")?,
             torsion_springs: root.lines("torsion_spring")?,
             interactions: root.lines("interaction")?,
@@ -31,6 +37,14 @@ impl FileLines {
             inputs: root.lines("input")?,
             readouts: root.lines("readout")?,
         })
+    }
+}
+
+impl FileLines {
+    /// The lines of raw elements: TSDAs, then points on lines.
+    pub(crate) fn raws(&self) -> impl Iterator<Item = &usize> {
+        let tsdas = self.raw_tsdas.iter().filter_map(|row| self.tsdas.get(*row));
+        tsdas.chain(&self.points_on_lines)
     }
 }
 

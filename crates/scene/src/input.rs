@@ -43,13 +43,14 @@ struct InputType {
     read: fn(&Table<'_>, &mut Known<'_>) -> Result<InputKind<F64>, SceneError>,
 }
 
-static TYPES: [InputType; 8] = [
+static TYPES: [InputType; 9] = [
     InputType { name: "force", unit: "N", keys: &["body", "point", "axis", "frame"], read: force },
     InputType { name: "torque", unit: "N·m", keys: &["body", "axis", "frame"], read: torque },
     InputType { name: "joint_torque", unit: "N·m", keys: HINGE, read: joint_torque },
     InputType { name: "joint_force", unit: "N", keys: &["target"], read: joint_force },
     InputType { name: "actuator", unit: "N", keys: &["target"], read: actuator },
     InputType { name: "anchor", unit: "m", keys: &["target", "axis"], read: anchor },
+    InputType { name: interaction::WINCH_TYPE, unit: "m", keys: interaction::WINCH, read: signal },
     // Its unit is that of its mode.
     InputType { name: interaction::DRIVE_TYPE, unit: "", keys: interaction::DRIVE, read: signal },
     InputType { name: "signal", unit: "", keys: &[], read: signal },
@@ -73,7 +74,7 @@ pub(crate) fn read_all(
 ) -> Result<Vec<InputInfo>, SceneError> {
     let mut names = Names::default();
     let mut infos: Vec<InputInfo> = Vec::new();
-    for table in root.list("input")? {
+    for (number, table) in root.list("input")?.into_iter().enumerate() {
         let kind = kind(&table)?;
         table.only(&[KEYS, &drive::KEYS, kind.keys])?;
         let name = names.read(&table, "input", ())?;
@@ -82,7 +83,12 @@ pub(crate) fn read_all(
             true => Driven::read(&table, known.places, known.elements)?.unit(),
             false => kind.unit,
         };
-        let drive = drive::read(&table, unit)?;
+        let mut drive = drive::read(&table, unit)?;
+        let is_length = kind.name == interaction::WINCH_TYPE;
+        if is_length {
+            let one = (number, &table);
+            drive = interaction::drive_of_length(root, one, drive, known.assembly)?;
+        }
         if drive == Drive::Over && matches!(made, InputKind::Anchor { .. }) {
             let help = "use a `table` over time or a `sine`: an anchor needs its rate, which a read-out \
                         does not give";
@@ -92,11 +98,17 @@ pub(crate) fn read_all(
                 help,
             ));
         }
-        let range = drive::range(&table, &drive, unit)?;
+        let mut range = drive::range(&table, &drive, unit)?;
+        if is_length {
+            range = interaction::range_of_length(&table, range)?;
+        }
         let index = known
             .assembly
             .add_input(made, &drive, range)
             .map_err(|defect| defect.refuse(&table))?;
+        if is_length {
+            known.assembly.start_input(index, drive.start());
+        }
         let table = !matches!(drive, Drive::Caller(_));
         infos.push(InputInfo { name, kind: kind.name, unit, table, range, index });
     }
@@ -202,7 +214,7 @@ fn anchor(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, Sc
                 known.joints.get(joint).map_or(0..0, |info| info.groups.clone())
             }
             Target::Tsda(group) | Target::PointOnLine(group) => group..group + 1,
-            Target::TorsionSpring(_) | Target::Interaction(_) => 0..0,
+            Target::TorsionSpring(_) | Target::Interaction(_) | Target::Winch(_) => 0..0,
         };
         let mut moved = Err(NoAnchor::NoGround);
         for group in groups {

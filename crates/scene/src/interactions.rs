@@ -5,7 +5,7 @@
 use dbd_kernel::laws::{
     CoordinateKind, Field, FieldSink, Instant, Laws as _, MAX_TERMS, Row, Term,
 };
-use dbd_kernel::{BodyIndex, F64, Geometry as _};
+use dbd_kernel::{BodyIndex, F64, Geometry as _, State};
 
 use crate::facts;
 use crate::scene::Scene;
@@ -81,7 +81,8 @@ pub fn interactions(scene: &Scene) -> Vec<InteractionInfo> {
 /// State of each interaction at t = 0.
 pub(crate) fn interactions_at_start(scene: &Scene) -> Vec<AtStart> {
     let (frames, bodies) = (facts::frames(scene), &scene.model.initial);
-    let instant = Instant { frames: &frames, bodies, signals: &[] };
+    let signals = State::initial(&scene.model).signals;
+    let instant = Instant { frames: &frames, bodies, signals: &signals };
     let laws = &scene.model.laws;
     let mut found = Vec::new();
     laws.look_at_all(&laws.states(), &mut |_, law| found.push(at_start(law, instant)));

@@ -9,6 +9,7 @@ use crate::assembly::Assembly;
 use crate::drive::{Argument, Curve, curve};
 use crate::error::SceneError;
 use crate::input::InputInfo;
+use crate::interaction;
 use crate::nearest::nearest;
 use crate::readout::ReadoutInfo;
 use crate::text::{Table, Text};
@@ -23,6 +24,9 @@ pub(crate) fn read_all(
     for (table, info) in root.list("input")?.iter().zip(inputs) {
         if table.has("over") {
             let (curve, law) = read(table, readouts, info.unit)?;
+            if info.kind == interaction::WINCH_TYPE {
+                interaction::check_lengths(table, "table", curve.least())?;
+            }
             let added = assembly.add_source(info.index, law, &curve);
             added.map_err(|defect| defect.refuse(table))?;
         }

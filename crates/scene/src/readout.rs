@@ -254,7 +254,10 @@ fn quantity(
 ) -> Result<(usize, usize, &'static str), SceneError> {
     let name = ElementName { elements: known.elements, kinds: Kinds::INTERACTION };
     let (name, target) = table.required("target", name)?;
-    let row = if let Target::Interaction(row) = target { row } else { usize::MAX };
+    let row = match target {
+        Target::Interaction(row) | Target::Winch(row) => row,
+        _ => usize::MAX,
+    };
     let quantities = known.quantities.get(row).copied().unwrap_or_default();
     if quantities.is_empty() {
         let help = "expected an interaction whose law has quantities";
@@ -270,8 +273,12 @@ fn quantity(
 }
 
 fn tsda_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, SceneError> {
-    let name = ElementName { elements: known.elements, kinds: Kinds::TSDA };
+    let name = ElementName { elements: known.elements, kinds: Kinds::ANY_TSDA };
     let (name, target) = table.required("target", name)?;
+    if let Target::Winch(law) = target {
+        // Its first quantity is its tension.
+        return Ok(Readout::Law { law: LawIndex(law as u16), quantity: 0 });
+    }
     let group = group_of(target, known);
     let directed = known.assembly.size(group) > 0.0;
     if !directed {
@@ -299,7 +306,7 @@ fn group_of(target: Target, known: &Known<'_>) -> usize {
             known.joints.get(joint).map_or(0, |info| info.groups.end.saturating_sub(1))
         }
         Target::Tsda(group) | Target::PointOnLine(group) => group,
-        Target::TorsionSpring(_) | Target::Interaction(_) => usize::MAX,
+        Target::TorsionSpring(_) | Target::Interaction(_) | Target::Winch(_) => usize::MAX,
     }
 }
 

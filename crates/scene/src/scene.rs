@@ -226,8 +226,8 @@ impl Scene {
         if let Some(law) = row.checked_sub(first) {
             return self.line_of_interaction(law);
         }
-        let kinds = [&lines.joints, &lines.tsdas, &lines.points_on_lines, &lines.torsion_springs];
-        kinds.into_iter().flatten().nth(row).copied()
+        let all = lines.joints.iter().chain(lines.raws()).chain(&lines.torsion_springs);
+        all.copied().nth(row)
     }
 
     /// The line of the scene file, from 1, on which a body begins, or the joint that creates it.

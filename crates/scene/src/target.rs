@@ -22,6 +22,8 @@ pub(crate) enum Target {
     TorsionSpring(usize),
     /// An interaction by its row.
     Interaction(usize),
+    /// A raw TSDA with a free length that an input sets, by the row of its interaction.
+    Winch(usize),
 }
 
 /// Accepted kinds of elements.
@@ -46,14 +48,21 @@ impl Kinds {
     /// A TSDA.
     pub(crate) const TSDA: Self =
         Self { suits: |target| matches!(target, Target::Tsda(_)), expected: "the name of a tsda" };
+    /// A TSDA, also with a free length that an input sets.
+    pub(crate) const ANY_TSDA: Self = Self {
+        suits: |target| matches!(target, Target::Tsda(_) | Target::Winch(_)),
+        expected: "the name of a tsda",
+    };
     /// Elements that pull at points.
     pub(crate) const PULLING: Self = Self {
-        suits: |target| !matches!(target, Target::TorsionSpring(_) | Target::Interaction(_)),
+        suits: |target| {
+            matches!(target, Target::Joint(_) | Target::Tsda(_) | Target::PointOnLine(_))
+        },
         expected: "the name of a joint, a tsda or a point_on_line",
     };
     /// An interaction.
     pub(crate) const INTERACTION: Self = Self {
-        suits: |target| matches!(target, Target::Interaction(_)),
+        suits: |target| matches!(target, Target::Interaction(_) | Target::Winch(_)),
         expected: "the name of an interaction",
     };
 }
@@ -83,6 +92,7 @@ impl Kind for ElementName<'_> {
                     Target::PointOnLine(_) => "point_on_line",
                     Target::TorsionSpring(_) => "torsion_spring",
                     Target::Interaction(_) => "interaction",
+                    Target::Winch(_) => "driven tsda",
                 };
                 let problem = format!("names the {kind} \"{name}\"");
                 Err(value.refuse(&problem, &self.expected()))

@@ -5,26 +5,37 @@ use dbd_kernel::Vec3;
 use crate::assembly::{Assembly, Points};
 use crate::between::Between;
 use crate::error::SceneError;
+use crate::interaction;
 use crate::pair::Pair;
 use crate::points::PlaceOf;
 use crate::spring;
 use crate::target::{Elements, Target};
 use crate::text::{Kind, Number, Table, Value};
 
-pub(crate) const KEYS: &[&str] = &["name", "between", "points", "free_length", "limits"];
+pub(crate) const KEYS: &[&str] = &["name", "between", "points", "free_length", "acts", "limits"];
 
 /// Points closer than this fraction of the free length define no direction.
 const COINCIDENT: f64 = 1e-9;
 
-/// Reads all raw TSDAs in scene order and names them for messages.
+/// Reads all raw TSDAs in scene order and names them for messages; those with a free length that an input sets are
+/// laws.
 pub(crate) fn read_all(
     root: &Table<'_>,
     assembly: &mut Assembly,
     elements: &mut Elements,
 ) -> Result<Vec<String>, SceneError> {
     let mut labels = Vec::new();
-    for table in root.list("tsda")? {
+    let winches = interaction::winches(root)?;
+    for (row, table) in root.list("tsda")?.into_iter().enumerate() {
         table.only(&[KEYS, spring::KEYS])?;
+        if winches.contains_key(&row) {
+            continue;
+        }
+        if table.has("acts") {
+            let help = "drive the free length by an input of the type \"free_length\", or use the law \
+                `distance-spring` of an interaction with a `force` on one side only";
+            return Err(table.refuse_key("acts", "needs an input of the free length", help));
+        }
         let target = Target::Tsda(assembly.groups().len());
         elements.read_optional(&table, "tsda", target)?;
         let pair = table.required("between", Between(assembly))?;
@@ -32,7 +43,10 @@ pub(crate) fn read_all(
         let spring = spring::read(&table, spring::AXIAL)?;
         let d = assembly.place(pair.b, b) - assembly.place(pair.a, a);
         let distance = libm::sqrt(d.dot(d));
-        let free_length = table.required("free_length", FreeLength { distance })?;
+        let Some(free_length) = table.optional("free_length", FreeLength { distance })? else {
+            let help = format!("add `free_length`: {}", FreeLength { distance }.expected());
+            return Err(table.refuse("has no `free_length`, and no input sets it", help));
+        };
         if free_length > 0.0 && distance <= COINCIDENT * free_length {
             let help = "give two different points, or use `free_length = 0` for a spring that is \
                 isotropic";
@@ -52,9 +66,9 @@ pub(crate) fn read_all(
 }
 
 /// A length, or `"initial"` for the length at the initial pose.
-struct FreeLength {
+pub(crate) struct FreeLength {
     /// \[m\] length at the initial pose.
-    distance: f64,
+    pub(crate) distance: f64,
 }
 
 const INITIAL: &str = "initial";

@@ -7,7 +7,7 @@
 //! is not affected. The powers at both ends of a step, each with the loads and signals of that step, give its
 //! work by the trapezoidal rule; between jumps or kinks of loads and signals the ends are corrected by
 //! differences (Gregory), which makes it of fourth order. A jump of the ground between two steps adds the jump of the
-//! springs' energy. A law with memory loses energy when its memory changes: the law's energy with the old memory minus
+//! springs' energy, as does that of an input that moves springs of laws. A law with memory loses energy when its memory changes: the law's energy with the old memory minus
 //! that with the new one. Events shorter than a step are not resolved, e.g. a damper that stops a body within it.
 
 use dbd_kernel::elements::input::InputKind;
@@ -27,7 +27,7 @@ type States = State<SceneModel<F64>>;
 pub struct EnergyBalance {
     /// \[J\] work of the loads.
     pub loads: f64,
-    /// \[J\] work of the inputs: forces, torques, actuators.
+    /// \[J\] work of the inputs: forces, torques, actuators, drives, free lengths.
     pub inputs: f64,
     /// \[J\] work of ground that inputs move.
     pub anchors: f64,
@@ -131,7 +131,9 @@ impl Balance {
             (self.piece.last.last().copied().unwrap_or_default(), self.powers(&end));
         self.piece.push(ended);
         self.work.add(std::array::from_fn(|i| 0.5 * h * (begun[i] + ended[i])));
-        self.work.anchors += self.jump(&end, &next);
+        let [anchors, inputs] = self.jumps(&end, &next);
+        self.work.anchors += anchors;
+        self.work.inputs += inputs;
         self.work.laws += self.forgotten(state, &next);
         let bends = end.signals != next.signals
             || self.windows.iter().any(|window| window.changes_at(next.step));
@@ -169,19 +171,29 @@ impl Balance {
         }
     }
 
-    /// \[J\] the change of energy by a jump of the ground.
-    fn jump(&self, before: &States, after: &States) -> f64 {
+    /// \[J\] the changes of energy by jumps of the ground, and of inputs that move springs of laws.
+    fn jumps(&self, before: &States, after: &States) -> [f64; 2] {
         let model = &self.model;
         let value = |signal: &Signal<f64>| signal.value;
-        let rows = model.inputs.iter().zip(before.signals.iter().zip(&after.signals));
-        let jumps = rows.into_iter().any(|(input, (before, after))| {
-            matches!(input.kind, InputKind::Anchor { .. }) && value(before) != value(after)
-        });
-        if !jumps {
-            return 0.0;
+        let pairs = before.signals.iter().zip(&after.signals);
+        if pairs.clone().all(|(before, after)| value(before) == value(after)) {
+            return [0.0; 2];
         }
         let of = |state: &States| energy(model, state, self.plant.step_size()).potential();
-        of(after) - of(before)
+        let is_anchor = |row: usize| {
+            model
+                .inputs
+                .get(row)
+                .is_some_and(|input| matches!(input.kind, InputKind::Anchor { .. }))
+        };
+        let signals = pairs.enumerate().map(
+            |(row, (before, after))| {
+                if is_anchor(row) { *after } else { *before }
+            },
+        );
+        let moved = State { signals: signals.collect(), ..before.clone() };
+        let [first, second, last] = [of(before), of(&moved), of(after)];
+        [second - first, last - second]
     }
 
     /// The balance so far.

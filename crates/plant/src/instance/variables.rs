@@ -76,7 +76,7 @@ pub(crate) fn inputs(scene: &Scene, start: impl Fn(InputIndex) -> [f64; 2]) -> V
         let rated = Input { name, unit, start: rate, range, is_rate: true, ..input.clone() };
         inputs.push(input);
         let is_place = info.kind == "drive" && ["rad", "m"].contains(&info.unit);
-        if info.kind == "anchor" || is_place {
+        if ["anchor", "free_length"].contains(&info.kind) || is_place {
             inputs.push(rated);
         }
     }

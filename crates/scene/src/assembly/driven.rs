@@ -114,6 +114,13 @@ impl Assembly {
         Ok(input)
     }
 
+    /// Sets the value of an input at t = 0, also where a table drives it.
+    pub(crate) fn start_input(&mut self, input: InputIndex, value: f64) {
+        if let Some(input) = self.model.inputs.get_mut(usize::from(input.0)) {
+            input.value = value;
+        }
+    }
+
     /// Lets an input follow a periodic table or a table over a read-out.
     pub(crate) fn add_source(
         &mut self,

@@ -25,6 +25,8 @@ pub(super) enum Of<'a> {
     Drive(&'a JointPlace, usize, Constants),
     /// A raw TSDA or a torsion spring: points, axis (world).
     Spring([[f64; 3]; 2], Vec3<f64>),
+    /// A TSDA with a free length that an input sets: points, input, constants.
+    Winch([[f64; 3]; 2], usize, Constants),
     /// A coupling: terms and constants.
     Coupling(Box<[Option<Term>; MAX_TERMS]>, Constants),
 }
@@ -32,7 +34,7 @@ pub(super) enum Of<'a> {
 impl Of<'_> {
     fn place(&self) -> Option<&JointPlace> {
         match self {
-            Of::Itself | Of::Spring(..) | Of::Coupling(..) => None,
+            Of::Itself | Of::Spring(..) | Of::Winch(..) | Of::Coupling(..) => None,
             Of::Joint(of) => Some(of.place),
             Of::Drive(place, ..) => Some(place),
         }
@@ -79,7 +81,7 @@ impl<'a, 't> Reading<'a, 't> {
     /// The index of an input.
     fn signal(&mut self, field: &Field) -> Option<u32> {
         match self.of {
-            Of::Drive(_, input, _) => return u32::try_from(input).ok(),
+            Of::Drive(_, input, _) | Of::Winch(_, input, _) => return u32::try_from(input).ok(),
             // No input has this index: it is not driven.
             Of::Joint(_) | Of::Spring(..) => return Some(u16::MAX.into()),
             Of::Itself | Of::Coupling(..) => {}
@@ -116,8 +118,14 @@ impl FieldSource for Reading<'_, '_> {
         let read = match &self.of {
             Of::Itself => None,
             Of::Joint(of) => of.number(self.table, field.name, unit(field, 0)),
+            // A length is at least 0.
+            Of::Spring(..)
+                if field.name == "from" && !self.table.has("from") && field.default.is_some() =>
+            {
+                return field.default;
+            }
             Of::Spring(..) => limit(self.table, field.name, unit(field, 0)),
-            Of::Drive(.., constants) | Of::Coupling(_, constants) => {
+            Of::Drive(.., constants) | Of::Winch(.., constants) | Of::Coupling(_, constants) => {
                 return constants.get(field.name).or(field.default);
             }
         };
@@ -155,7 +163,7 @@ impl FieldSource for Reading<'_, '_> {
             let point = |body| assembly.point_in(body, place.at_w).to_f64();
             return Some([pair.a, pair.b].map(point));
         }
-        if let Of::Spring(points, _) = self.of {
+        if let Of::Spring(points, _) | Of::Winch(points, ..) = self.of {
             return Some(points);
         }
         let read = self.table.required(field.name, TwoPlaces { assembly, pair });

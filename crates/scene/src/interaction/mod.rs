@@ -7,10 +7,15 @@ mod of_couplings;
 mod of_drives;
 mod of_joints;
 mod of_springs;
+mod of_winches;
 
 pub(crate) use of_couplings::{KEYS as COUPLING, TERM};
 pub(crate) use of_drives::{Driven, GEAR, KEYS as DRIVE, TYPE as DRIVE_TYPE, WINDING};
 pub(crate) use of_joints::{FRICTION, LIMITS, ROTOR};
+pub(crate) use of_winches::{
+    KEYS as WINCH, TYPE as WINCH_TYPE, check as check_lengths, drive_of as drive_of_length,
+    range_of as range_of_length, winches,
+};
 
 use std::sync::Arc;
 
@@ -140,6 +145,7 @@ pub(crate) fn read_all(
     }
     of_joints(root, joints, assembly, &mut rows)?;
     of_springs(root, assembly, &mut rows)?;
+    of_winches(root, elements, assembly, &mut rows)?;
     of_drives(root, (joints, elements), assembly, &mut rows)?;
     of_couplings(root, (joints, elements), assembly, &mut rows)?;
     for (number, table) in root.list("interaction")?.into_iter().enumerate() {
@@ -167,9 +173,16 @@ pub(crate) fn read_all(
     let mut sources = Vec::new();
     for (law, source, of_law) in rows.laws {
         for One { name, table, label, place, quantities } in of_law {
-            let target = Target::Interaction(read.labels.len());
+            let is_winch = place.0 == "tsda" && rows.known[law].name == of_winches::LAW;
+            let target = match is_winch {
+                true => Target::Winch(read.labels.len()),
+                false => Target::Interaction(read.labels.len()),
+            };
             match name {
-                Some(name) => elements.add(&table, name, "interaction", target)?,
+                Some(name) => {
+                    let kind = if is_winch { "tsda" } else { "interaction" };
+                    elements.add(&table, name, kind, target)?;
+                }
                 None if place.0 == "tsda" || place.0 == "torsion_spring" => {}
                 None => elements.read_optional(&table, "interaction", target)?,
             }
@@ -231,6 +244,30 @@ fn of_springs<'t>(
             let one = One { name, table, label, place: (kind, number), quantities: None };
             rows.add(law, assembly, (&pair, of), one)?;
         }
+    }
+    Ok(())
+}
+
+/// Reads TSDAs with a free length that an input sets.
+fn of_winches<'t>(
+    root: &Table<'t>,
+    elements: &Elements,
+    assembly: &Assembly,
+    rows: &mut Rows<'t>,
+) -> Result<(), SceneError> {
+    let winches = of_winches::winches(root)?;
+    of_winches::check_targets(root, &winches, elements)?;
+    let Some(law) = rows.known.iter().position(|known| known.name == of_winches::LAW) else {
+        return Ok(());
+    };
+    for (number, table) in root.list("tsda")?.into_iter().enumerate() {
+        let Some(input) = winches.get(&number) else { continue };
+        let (pair, of) = of_winches::read(&table, *input, assembly)?;
+        let name = table.required("name", Text::Name)?;
+        let label = pair.label(&table);
+        let place = ("tsda", number);
+        let one = One { name: Some(name), table, label, place, quantities: None };
+        rows.add(law, assembly, (&pair, of), one)?;
     }
     Ok(())
 }

@@ -59,11 +59,7 @@ impl<'j> Coupled<'j> {
                 constants.add(key, number);
             }
         }
-        match table.optional("acts", Choice(&["tension", "compression"]))? {
-            Some(0) => constants.add("pushes", 0.0),
-            Some(_) => constants.add("pulls", 0.0),
-            None => {}
-        }
+        sides(table, &mut constants)?;
         let mut terms = [None; MAX_TERMS];
         for (term, read) in terms.iter_mut().zip(&read) {
             *term = Some(read.term(assembly));
@@ -76,6 +72,16 @@ impl<'j> Coupled<'j> {
             quantities: (!turns).then_some(OF_TRAVELS),
         })
     }
+}
+
+/// Reads `acts`, the side on which a spring has tension.
+pub(super) fn sides(table: &Table<'_>, constants: &mut Constants) -> Result<(), SceneError> {
+    match table.optional("acts", Choice(&["tension", "compression"]))? {
+        Some(0) => constants.add("pushes", 0.0),
+        Some(_) => constants.add("pulls", 0.0),
+        None => {}
+    }
+    Ok(())
 }
 
 /// A term as read.

@@ -41,7 +41,7 @@ pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
         }
     }
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
-    let mut lines = scene.file_lines.tsdas.iter().chain(&scene.file_lines.points_on_lines);
+    let mut lines = scene.file_lines.raws();
     let rows = scene.model.groups[raw..].iter().zip(&groups[raw..]);
     for ((group, facts), name) in rows.zip(&scene.raw_names) {
         let line = lines.next().copied();

@@ -33,8 +33,7 @@ const LIFTS: f64 = 30.0;
 pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     let groups = facts::groups(scene);
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
-    let lines = scene.file_lines.tsdas.iter().chain(&scene.file_lines.points_on_lines);
-    let named = scene.raw_names.iter().zip(lines);
+    let named = scene.raw_names.iter().zip(scene.file_lines.raws());
     let mut springs = Vec::new();
     for ((group, facts), (name, line)) in
         scene.model.groups[raw..].iter().zip(&groups[raw..]).zip(named)
@@ -182,12 +181,13 @@ pub struct OneSided {
 #[must_use]
 pub fn one_sided_springs(scene: &Scene) -> Vec<OneSided> {
     let raw = scene.joints.last().map_or(0, |joint| joint.groups.end);
-    let named = scene.raw_names.iter().zip(&scene.file_lines.tsdas).enumerate();
+    let named = scene.raw_names.iter().zip(scene.file_lines.raws()).enumerate();
+    let tsdas = scene.file_lines.raw_tsdas.len();
     let one = |(row, (name, line)): (usize, (&String, &usize))| {
         let (word, pulls) = one_sided(name)?;
         Some(OneSided { group: raw + row, name: name.clone(), line: *line, word, pulls })
     };
-    named.filter_map(one).collect()
+    named.take(tsdas).filter_map(one).collect()
 }
 
 /// The word in an element's name that implies one direction, and whether it pulls.

@@ -114,8 +114,10 @@ fn place(part: Part, scene: &Scene) -> Option<(&'static str, usize)> {
             spider.map(|row| ("joint", row))
         }
         Part::Joint(row) => Some(("joint", row)),
-        Part::Raw(row) if row < lines.tsdas.len() => Some(("tsda", row)),
-        Part::Raw(row) => Some(("point_on_line", row - lines.tsdas.len())),
+        Part::Raw(row) => Some(match lines.raw_tsdas.get(row) {
+            Some(row) => ("tsda", *row),
+            None => ("point_on_line", row - lines.raw_tsdas.len()),
+        }),
         Part::TorsionSpring(row) if row < lines.torsion_springs.len() => {
             Some(("torsion_spring", row))
         }

@@ -130,6 +130,8 @@ fn limits_of_springs_are_the_interactions_of_their_geometry() {
                   limits = { to = 1, stiffness = 50 }\n";
     let exchanged = &dbd_scene::interactions(&scene("", ground).unwrap())[0];
     assert!(exchanged.bodies[0].is_world() && exchanged.axis == Some([0.0, 0.0, -1.0]));
+    // A rope: without a lower end.
+    scene("", &springs(["limits = { to = 1, stiffness = 50 }", ""])).unwrap();
     for (springs, parts) in [
         (springs(["limits = { to = 1, offset = 0.1, stiffness = 1 }", ""]), ["offset", "`from`"]),
         (springs(["limits = { stiffness = 1 }", ""]), ["limits nothing", "both"]),

@@ -19,3 +19,4 @@ mod properties;
 mod quantities;
 mod realisations;
 mod warnings;
+mod winches;

@@ -123,8 +123,15 @@ pub(super) fn of_tsda(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "",
         ),
         "free_length" => {
-            Key(number(NotNegative), "m, ≥ 0, or \"initial\": the length at t = 0", "")
+            let about = "m, ≥ 0, or \"initial\": the length at t = 0; optional where an input of the \
+                         type \"free_length\" with a drive of its own sets it";
+            Key(number(NotNegative), about, "")
         }
+        "acts" => Key(
+            choice(&["tension", "compression"]),
+            "Side on which it acts, where an input sets its free length: \"tension\" for a rope",
+            "both",
+        ),
         "limits" => Key(limits(tables), "Limits of its length, in m", "none"),
         _ => return None,
     })

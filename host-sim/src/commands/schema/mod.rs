@@ -50,7 +50,7 @@ const MANY: [(&str, &str); 11] = [
 fn required(table: &str) -> &'static [&'static str] {
     match table {
         "joint" => &["type", "between", "stiffness"],
-        "tsda" => &["between", "points", "free_length", "stiffness"],
+        "tsda" => &["between", "points", "stiffness"],
         "point_on_line" => {
             &["between", "line_point", "line_direction", "point", "free_length", "stiffness"]
         }
