@@ -8,6 +8,7 @@ mod creep;
 mod drives;
 mod examples;
 mod slides;
+mod soft;
 mod values;
 mod winches;
 

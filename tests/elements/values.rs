@@ -65,6 +65,19 @@ fn stop() -> String {
     )
 }
 
+/// The same with a soft start over 2 mm: the rebound does not depend on the spring.
+fn soft_stop() -> String {
+    stop().replace("\"end-stop\"", "\"soft-end-stop\"\nsoft = \"2 mm\"")
+}
+
+/// The depth x at which the spring, soft over s, has the energy that the impact leaves it: `k·(s²/6 + (x − s)·x/2) =
+/// m·(a·v − ln(1 + a·v))/a²`.
+fn penetration(soft: f64) -> f64 {
+    let (stiffness, a) = (1e5, 0.6_f64);
+    let energy = (a - a.ln_1p()) / (a * a);
+    0.5 * (soft + (soft * soft - 4.0 * (soft * soft / 3.0 - 2.0 * energy / stiffness)).sqrt())
+}
+
 const BUMP: &str = "[[interaction]]\nlaw = \"distance-spring\"\nbetween = [\"world\", \"mass\"]\n\
                     points = [[0, 0, 0], [0, 0, 0]]\nfree_length = 0.5\n\
                     force = [[\"-60 mm\", -2400], [\"-20 mm\", -400], [0, 0], [\"1 mm\", 0]]";
@@ -226,6 +239,24 @@ fn cases() -> Vec<Case> {
             2e-4,
             1e-3,
             Box::new(|h| at(&stop(), h, 0.02, "mass.vy")),
+        ),
+        case(
+            "soft-end-stop",
+            "penetration, soft over 2 mm",
+            "m",
+            penetration(2e-3),
+            2e-4,
+            1e-3,
+            Box::new(|h| -until(&soft_stop(), h, "mass.y", |time, _| time > 0.02)[0]),
+        ),
+        case(
+            "soft-end-stop",
+            "speed of its rebound",
+            "m/s",
+            0.711_950_179_6,
+            2e-4,
+            1e-3,
+            Box::new(|h| at(&soft_stop(), h, 0.02, "mass.vy")),
         ),
         case(
             "distance-spring",

@@ -57,18 +57,18 @@ pub use coupling::{Coupling, Sum};
 pub use curve::Curve;
 pub use distance_damper::DistanceDamper;
 pub use distance_spring::DistanceSpring;
-pub use distance_stop::DistanceStop;
+pub use distance_stop::{DistanceStop, SoftDistanceStop};
 pub use distance_winch::DistanceWinch;
 pub(crate) use end::Body;
 pub use end::{End, Instant, Seen};
-pub use end_stop::EndStop;
+pub use end_stop::{EndStop, SoftEndStop};
 pub use hinge::{Hinge, Turns, Twisted};
 pub use hinge_damper::HingeDamper;
 pub use hinge_drive::{HingeDrive, TurnRotor};
 pub use hinge_friction::{HingeFriction, TurnSlip};
 pub use hinge_servo::HingeServo;
 pub use hinge_spring::HingeSpring;
-pub use hinge_stop::HingeStop;
+pub use hinge_stop::{HingeStop, SoftHingeStop};
 pub use interaction::{
     Constants, Damper, Inner, Interaction, Law, Need, NoStorage, Quantity, Several, Springs, Wrong,
 };

@@ -95,7 +95,7 @@ impl<P: Geometry> PlaneContact<P> {
         let (way, normal) = (P::displacement(&at_a, &at_b), seen.a.to_world(self.normal));
         let travel = Coordinate::carried(normal.dot(way), normal, [arm, way, other]);
         let range = [self.radius, P::Real::from_f64(1e30)];
-        let stopped = Stopped::within(travel, range, self.stiffness);
+        let stopped = Stopped::within(travel, range, [self.stiffness, P::Real::ZERO]);
         let held = seen.b.to_world(memory.arm);
         let mut give = P::Vector::ZERO;
         if memory.touched && stopped.beyond != P::Real::ZERO {

@@ -28,7 +28,7 @@ use crate::error::SceneError;
 use crate::file_lines::LawPlace;
 use crate::interaction::field::{Of, Reading};
 use crate::interaction::of_couplings::Coupled;
-use crate::interaction::of_joints::{OF_JOINTS, OfJoint, keys_of};
+use crate::interaction::of_joints::{OF_JOINTS, OfJoint, keys_of, law_of, softened};
 use crate::joints::{self, JointPlace};
 use crate::laws::{KnownLaw, SourceRows, known_laws};
 use crate::nearest::nearest;
@@ -158,6 +158,10 @@ pub(crate) fn read_all(
             let help = "use a [[coupling]] for a sum of joint coordinates";
             return Err(table.refuse_value("law", "is not a law between two bodies", help));
         }
+        if let Some(soft) = softened(known[law].name).filter(|_| table.has("soft")) {
+            let help = format!("set `law = \"{soft}\"`, the same stop with a soft start");
+            return Err(table.refuse_key("soft", "needs another law", help));
+        }
         let fields = known[law].fields.iter();
         table.only(&[KEYS, &fields.map(|field| field.name).collect::<Vec<_>>()])?;
         let pair = table.required("between", Between(assembly))?;
@@ -208,7 +212,9 @@ fn of_joints<'t>(
         for (_, key, law) in OF_JOINTS.iter().filter(|(kind, ..)| *kind == place.kind) {
             let Some(value) = joint.value(key) else { continue };
             let table = value.table(keys_of(key).1)?;
-            let Some(law) = rows.known.iter().position(|known| known.name == *law) else {
+            table.only(&[keys_of(key).0])?;
+            let law = law_of(&table, law)?;
+            let Some(law) = rows.known.iter().position(|known| known.name == law) else {
                 continue;
             };
             let of_joint = OfJoint::new(&table, key, (place, rows.known[law].fields), assembly)?;
@@ -230,11 +236,12 @@ fn of_springs<'t>(
     rows: &mut Rows<'t>,
 ) -> Result<(), SceneError> {
     for (kind, law) in [("tsda", "distance-stop"), ("torsion_spring", "hinge-stop")] {
-        let Some(law) = rows.known.iter().position(|known| known.name == law) else { continue };
         for (number, owner) in root.list(kind)?.into_iter().enumerate() {
             let Some(value) = owner.value("limits") else { continue };
             let table = value.table("{ from = …, to = …, stiffness = … }")?;
             let (pair, of) = of_springs::limits(&owner, &table, kind, assembly)?;
+            let law = law_of(&table, law)?;
+            let Some(law) = rows.known.iter().position(|known| known.name == law) else { continue };
             let called = owner.optional("name", Text::Name)?;
             let name = called.as_ref().map(|called| format!("{called}.limits"));
             let label = match &name {

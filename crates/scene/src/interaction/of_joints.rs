@@ -29,7 +29,7 @@ pub(super) const OF_JOINTS: [(&str, &str, &str); 12] = [
 
 /// The keys of limits.
 pub(crate) const LIMITS: &[&str] =
-    &["from", "to", "offset", "stiffness", "dissipation", "restitution", "speed"];
+    &["from", "to", "offset", "stiffness", "soft", "dissipation", "restitution", "speed"];
 
 /// The keys of friction.
 pub(crate) const FRICTION: &[&str] =
@@ -135,6 +135,27 @@ pub(super) fn limit(
         "dissipation" => restituted(table, unit).transpose(),
         _ => None,
     }
+}
+
+/// The laws of stops, each with its soft one and the unit of a depth.
+const SOFTENED: [(&str, &str, &str); 3] = [
+    ("end-stop", "soft-end-stop", "m"),
+    ("hinge-stop", "soft-hinge-stop", "rad"),
+    ("distance-stop", "soft-distance-stop", "m"),
+];
+
+/// The soft law of a stop.
+pub(super) fn softened(law: &str) -> Option<&'static str> {
+    SOFTENED.iter().find(|(hard, ..)| *hard == law).map(|(_, soft, _)| *soft)
+}
+
+/// The law of limits: that of a soft stop with `soft` above 0.
+pub(super) fn law_of(table: &Table<'_>, law: &'static str) -> Result<&'static str, SceneError> {
+    let Some((_, soft, unit)) = SOFTENED.iter().find(|(hard, ..)| *hard == law) else {
+        return Ok(law);
+    };
+    let depth = table.optional("soft", Number::not_negative(unit))?.unwrap_or(0.0);
+    Ok(if depth > 0.0 { soft } else { law })
 }
 
 /// Rejects limits without `from` and `to`.

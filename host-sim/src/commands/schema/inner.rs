@@ -199,6 +199,11 @@ fn of_limits(key: &str) -> Option<Key> {
         "to" => Key(number(Any), "rad or m: upper end", "none"),
         "offset" => Key(number(Any), "rad or m: angle or travel at t = 0", "0"),
         "stiffness" => Key(number(Positive), "N·m/rad or N/m, > 0: stiffness beyond a limit", ""),
+        "soft" => Key(
+            number(NotNegative),
+            "rad or m: depth over which the stiffness rises from 0 to its value",
+            "0",
+        ),
         "dissipation" => Key(
             number(NotNegative),
             "s/rad or s/m: coefficient a of stiffness · depth · (1 + a · rate of the depth)",

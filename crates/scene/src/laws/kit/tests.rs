@@ -2,7 +2,8 @@ use super::*;
 use dbd_kernel::laws::{
     Bushing, Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop,
     Hinge, HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop,
-    PlaneContact, SlideDrive, SlideFriction, SlideServo, Springs,
+    PlaneContact, SlideDrive, SlideFriction, SlideServo, SoftDistanceStop, SoftEndStop,
+    SoftHingeStop, Springs,
 };
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{BodyIndex, InputIndex, Real as _};
@@ -37,6 +38,19 @@ fn the_projects_laws_keep_what_laws_promise() {
             DistanceStop { bodies: BODIES, points, from, to, stiffness: 1e5, dissipation: 0.5 };
         hold(&stop, poses).unwrap();
     }
+    let soft = 0.02;
+    let EndStop { bodies, normal, stiffness, dissipation, .. } = plane;
+    for (from, to) in [(0.0, 1e30), (-0.01, 0.01)] {
+        let stop = SoftEndStop { bodies, points, normal, from, to, stiffness, soft, dissipation };
+        hold(&stop, poses).unwrap();
+    }
+    for (from, to) in [(0.0, 0.03), (0.06, 1e30), (0.03, 0.05)] {
+        let stop = SoftDistanceStop { bodies, points, from, to, stiffness, soft, dissipation };
+        hold(&stop, poses).unwrap();
+    }
+    let (axis, [from, to]) = (hinge(), [-0.3, 0.2]);
+    let stop = SoftHingeStop { bodies, axis, from, to, stiffness, soft: 0.3, dissipation };
+    hold(&stop, poses).unwrap();
     let friction = SlideFriction {
         bodies: BODIES,
         points,

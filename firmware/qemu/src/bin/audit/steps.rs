@@ -7,7 +7,7 @@
 use dbd_kernel::laws::{
     Bushing, Coupling, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop,
     HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact,
-    SlideDrive, SlideFriction, SlideServo,
+    SlideDrive, SlideFriction, SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop,
 };
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
@@ -36,6 +36,7 @@ type OfTurns<P> = Lawful<
         [Coupling<P>; 1],
         [Bushing<P>; 1],
         [HingeStop<P>; 1],
+        [SoftHingeStop<P>; 1],
         [HingeFriction<P>; 1],
         [HingeSpring<P>; 1],
         [HingeDamper<P>; 1],
@@ -49,7 +50,9 @@ type OfTravels<P> = Lawful<
     P,
     (
         [EndStop<P>; 1],
+        [SoftEndStop<P>; 1],
         [DistanceStop<P>; 1],
+        [SoftDistanceStop<P>; 1],
         [PlaneContact<P>; 1],
         [DistanceSpring<P>; 1],
         [DistanceDamper<P>; 1],
