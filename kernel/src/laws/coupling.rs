@@ -244,6 +244,11 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
     }
 
     #[inline(always)]
+    fn is_damped(&self) -> bool {
+        self.damping != P::Real::ZERO
+    }
+
+    #[inline(always)]
     fn dampers(
         &self,
         seen: &Seen<'_, P>,
@@ -251,7 +256,7 @@ impl<P: Geometry> Interaction<P> for Coupling<P> {
         visit: &mut impl FnMut(Damper<P>),
     ) {
         let zero = P::Real::ZERO;
-        if self.damping == zero {
+        if !Interaction::<P>::is_damped(self) {
             return visit(Damper::idle());
         }
         let known = self.tension(seen, memory).zip(self.part(0, seen, memory));

@@ -63,7 +63,7 @@ impl<P: Geometry> DistanceWinch<P> {
     #[inline(always)]
     fn damper(&self, seen: &Seen<'_, P>, wound: &Wound<P>) -> Damper<P> {
         let (tension, zero) = (wound.tension, P::Real::ZERO);
-        if self.damping == zero {
+        if !Interaction::<P>::is_damped(self) {
             return Damper::idle();
         }
         let damper = Damper::new(self.damping, wound.coordinate.direction(seen));
@@ -103,6 +103,11 @@ impl<P: Geometry> Interaction<P> for DistanceWinch<P> {
         let Wound { coordinate, tension, .. } = self.wound(seen);
         visit(self.stiffness, &coordinate.direction(seen));
         coordinate.bent(seen, tension.abs(), visit)
+    }
+
+    #[inline(always)]
+    fn is_damped(&self) -> bool {
+        self.damping != P::Real::ZERO
     }
 
     #[inline(always)]

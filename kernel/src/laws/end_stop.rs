@@ -90,13 +90,18 @@ macro_rules! stop {
             }
 
             #[inline(always)]
+            fn is_damped(&self) -> bool {
+                self.dissipation != P::Real::ZERO
+            }
+
+            #[inline(always)]
             fn dampers(
                 &self,
                 seen: &Seen<'_, P>,
                 _: &NoStorage,
                 visit: &mut impl FnMut(Damper<P>),
             ) {
-                if self.dissipation == P::Real::ZERO {
+                if !Interaction::<P>::is_damped(self) {
                     return visit(Damper::idle());
                 }
                 visit(self.stopped(seen).damper(seen, self.dissipation));

@@ -94,13 +94,18 @@ macro_rules! stop {
             }
 
             #[inline(always)]
+            fn is_damped(&self) -> bool {
+                self.dissipation != P::Real::ZERO
+            }
+
+            #[inline(always)]
             fn dampers(
                 &self,
                 seen: &Seen<'_, P>,
                 turns: &Turns,
                 visit: &mut impl FnMut(Damper<P>),
             ) {
-                if self.dissipation == P::Real::ZERO {
+                if !Interaction::<P>::is_damped(self) {
                     return visit(Damper::idle());
                 }
                 if let Some(stopped) = self.stopped(seen, *turns) {

@@ -295,6 +295,12 @@ pub trait Interaction<P: Geometry>: Constants<P> {
         [P::Real::ZERO; 2]
     }
 
+    /// Whether its dampers may act, by its constants alone: damper passes skip it otherwise.
+    #[inline(always)]
+    fn is_damped(&self) -> bool {
+        true
+    }
+
     /// Visits its dampers, always the same number in the same order, idle ones with the coefficient 0.
     #[inline(always)]
     fn dampers(

@@ -90,6 +90,9 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
         else {
             break;
         };
+        if !law.is_damped() {
+            continue;
+        }
         let bodies = law.bodies();
         let mut dampers = T::Dampers::of(Damper::<P>::idle());
         let (mut count, mut kick, time) = (0, P::Real::ZERO, pass.time());
