@@ -19,7 +19,7 @@ fn the_page_has_a_table_of_each_law() {
         let row = |field: &dbd_kernel::laws::Field| {
             let value = match field.kind {
                 "points" => "[[x, y, z], [x, y, z]] m or points".into(),
-                "normal" | "axis" => "[x, y, z] or two points".into(),
+                "normal" | "axis" | "axle" => "[x, y, z] or two points".into(),
                 "count" => "a whole number".into(),
                 "table" => format!("[[{}], …], the first ascending", field.units.join(", ")),
                 _ => field.units.join(", "),

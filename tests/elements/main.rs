@@ -2,6 +2,7 @@
 //! drives. The page `docs/elements.md` has the values.
 
 mod bushing;
+mod contacts;
 mod costs;
 mod couplings;
 mod creep;

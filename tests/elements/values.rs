@@ -7,21 +7,21 @@ use dbd_tests::page::{block, table};
 use nalgebra::{Matrix6, Vector6};
 
 use crate::drives::{ROTOR, period, wheel};
-use crate::{couplings, instance, value, winches};
+use crate::{contacts, couplings, instance, value, winches};
 
 const G: f64 = 9.81;
 
 /// A value that an element must reach.
-struct Case {
-    element: &'static str,
-    what: &'static str,
-    unit: &'static str,
-    exact: f64,
+pub struct Case {
+    pub element: &'static str,
+    pub what: &'static str,
+    pub unit: &'static str,
+    pub exact: f64,
     /// \[s\] the longest of three steps, each half of the one before.
-    step: f64,
-    found: Box<dyn Fn(f64) -> f64>,
+    pub step: f64,
+    pub found: Box<dyn Fn(f64) -> f64>,
     /// What the last may be off by, of the value.
-    near: f64,
+    pub near: f64,
 }
 
 /// A body of `mass` \[kg\] on the y axis.
@@ -47,7 +47,7 @@ fn until(text: &str, step: f64, name: &str, ends: impl Fn(f64, f64) -> bool) -> 
     }
 }
 
-fn at(text: &str, step: f64, time: f64, name: &str) -> f64 {
+pub fn at(text: &str, step: f64, time: f64, name: &str) -> f64 {
     let mut run = instance(text, step, "f64");
     run.advance_to(time).unwrap();
     value(&run, name)
@@ -454,7 +454,7 @@ fn cases() -> Vec<Case> {
 fn elements_reach_their_values() {
     let mut rows = Vec::new();
     let mut off = String::new();
-    for case in cases() {
+    for case in cases().into_iter().chain(contacts::cases()) {
         let steps = [case.step, case.step / 2.0, case.step / 4.0];
         let found = steps.map(|step| (case.found)(step));
         let errors = found.map(|found| (found - case.exact).abs());

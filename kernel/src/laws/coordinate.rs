@@ -67,8 +67,13 @@ impl<P: Geometry> Coordinate<P> {
     #[inline(always)]
     pub(super) fn distance(seen: &Seen<'_, P>, points: &[P::Local; 2]) -> Self {
         let ((at_a, arm), (at_b, other)) = (seen.a.place(&points[0]), seen.b.place(&points[1]));
-        let way = P::displacement(&at_a, &at_b);
-        Self { value: way.dot(way).sqrt(), way: CoordinateKind::Distance(way, [arm, other]) }
+        Self::between(P::displacement(&at_a, &at_b), [arm, other])
+    }
+
+    /// The distance of two points from their displacement and their lever arms.
+    #[inline(always)]
+    pub(super) fn between(way: P::Vector, arms: [P::Vector; 2]) -> Self {
+        Self { value: way.dot(way).sqrt(), way: CoordinateKind::Distance(way, arms) }
     }
 
     /// Its gradient.

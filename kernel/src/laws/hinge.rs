@@ -5,7 +5,7 @@ use crate::geometry::Geometry;
 use crate::index::{BodyIndex, DamperIndex};
 use crate::laws::end::Seen;
 use crate::real::Real;
-use crate::space::Space;
+use crate::space::{Linear as _, Moment as _, Space, Turn as _};
 use crate::words::{Word, WordSource, WordVisitor, Words};
 
 /// \[½ revolution\] the number of half revolutions of a torsion angle: memory of a law about an axis.
@@ -54,6 +54,19 @@ pub struct Twisted<S: Space> {
 }
 
 impl<S: Space> Hinge<S> {
+    /// \[1\] the axis in B's axes, if it is fixed in B.
+    #[inline(always)]
+    #[must_use]
+    pub fn of_b(&self) -> S::Moment {
+        let (mut w, mut v) = (S::Real::ZERO, S::Moment::ZERO);
+        for axis in S::Moment::axes() {
+            let (cosine, sine) = self.reference.about(axis);
+            (w, v) = (cosine, v + axis * sine);
+        }
+        let across = v.commutator(self.axis) * S::Real::TWO;
+        self.axis + across * w + v.commutator(across)
+    }
+
     /// The rotation of B since t = 0; `None` where its torsion angle is undefined. Not for lanes.
     #[inline(always)]
     pub fn seen<P: Geometry<Space = S>>(&self, seen: &Seen<'_, P>) -> Option<Twisted<S>> {

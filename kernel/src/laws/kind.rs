@@ -38,7 +38,8 @@ pub trait FieldSource {
     fn points(&mut self, field: &Field) -> Option<[[f64; 3]; 2]>;
     /// \[1\] a unit vector in the axes of A.
     fn normal(&mut self, field: &Field) -> Option<[f64; 3]>;
-    /// \[1\] a unit axis in the axes of A, and the inverse of B's orientation in A at t = 0, scalar first.
+    /// \[1\] a unit axis in the axes of A, and the inverse of B's orientation in A at t = 0, scalar first. An axis of
+    /// the kind `axle` is fixed in B, given at t = 0.
     fn axis(&mut self, field: &Field) -> Option<([f64; 3], [f64; 4])>;
     /// Writes knots with ascending x to the front of `to`; returns their number.
     fn table(&mut self, field: &Field, to: &mut [[f64; 2]]) -> Option<usize>;
@@ -224,6 +225,28 @@ impl Kind for Axis {
     }
     fn write_to(of: &Hinge<f64>, field: &Field, sink: &mut dyn FieldSink) {
         sink.axis(field, of.axis.to_f64(), of.reference.to_f64());
+    }
+}
+
+/// An axis fixed in B: [`Hinge`], as an [`Axis`]; [`Hinge::of_b`] is the axis in B.
+#[derive(Clone, Copy, Debug)]
+pub struct Axle;
+
+impl Kind for Axle {
+    type In<P: Geometry> = Hinge<P::Space>;
+    const NAME: &'static str = "axle";
+
+    fn rounded<P: Geometry>(of: &Hinge<f64>) -> Hinge<P::Space> {
+        Axis::rounded::<P>(of)
+    }
+    fn visit<P: Geometry>(of: &Hinge<P::Space>, visitor: &mut dyn WordVisitor) {
+        Axis::visit::<P>(of, visitor);
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<Hinge<f64>> {
+        Axis::read_from(field, source)
+    }
+    fn write_to(of: &Hinge<f64>, field: &Field, sink: &mut dyn FieldSink) {
+        Axis::write_to(of, field, sink);
     }
 }
 

@@ -17,7 +17,9 @@ mod declare;
 
 mod branch;
 mod branches;
+mod brush;
 mod bushing;
+mod contact;
 mod coordinate;
 mod coupling;
 mod curve;
@@ -46,12 +48,15 @@ mod slide_drive;
 mod slide_friction;
 mod slide_servo;
 mod slip;
+mod sphere_contact;
 mod stop;
 mod tabled;
 mod term;
+mod wheel_contact;
 
 pub use branch::{Branch, MAX_BRANCHES};
 pub use bushing::Bushing;
+pub use contact::Held;
 pub(crate) use coordinate::travel;
 pub use coupling::{Coupling, Sum};
 pub use curve::Curve;
@@ -75,10 +80,11 @@ pub use interaction::{
 #[doc(hidden)]
 pub use kind::first;
 pub use kind::{
-    Axis, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Signal, Table, Terms,
+    Axis, Axle, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Signal, Table,
+    Terms,
 };
 pub use list::Laws;
-pub use plane_contact::{Held, PlaneContact};
+pub use plane_contact::PlaneContact;
 pub use rotor::Rotor;
 pub use row::{Act, DamperPass, Row};
 #[doc(hidden)]
@@ -87,7 +93,9 @@ pub use slide_drive::SlideDrive;
 pub use slide_friction::SlideFriction;
 pub use slide_servo::SlideServo;
 pub use slip::Slip;
+pub use sphere_contact::{Facing, SphereContact};
 pub use term::{CoordinateKind, MAX_TERMS, Term};
+pub use wheel_contact::{Rolled, WheelContact};
 
 pub use crate::force_pair::Direction;
 pub use crate::force_pair::ForcePair;

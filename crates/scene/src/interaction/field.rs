@@ -90,7 +90,7 @@ impl<'a, 't> Reading<'a, 't> {
         self.keep(read)
     }
 
-    /// A direction in the axes of the first body, given like a joint's axis.
+    /// A direction in the axes of the first body, given like a joint's axis; an axle moves with the second body.
     fn heading(&mut self, field: &Field) -> Option<Vec3<f64>> {
         let (assembly, table, a) = (self.assembly, self.table, self.pair.a);
         if let Some(place) = self.of.place() {
@@ -99,8 +99,9 @@ impl<'a, 't> Reading<'a, 't> {
         if let Of::Spring(_, axis) = self.of {
             return Some(assembly.vector_in(a, axis));
         }
+        let carrier = if field.kind == "axle" { self.pair.b } else { a };
         let read = table.required(field.name, Heading(assembly)).map(|written| {
-            let carried = assembly.carried_direction(a, written);
+            let carried = assembly.carried_direction(carrier, written);
             assembly.resolve_direction(table.value(field.name), written, carried);
             assembly.vector_in(a, carried)
         });

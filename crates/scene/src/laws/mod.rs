@@ -55,6 +55,8 @@ pub fn known_laws() -> Vec<KnownLaw> {
         KnownLaw::of::<laws::SoftHingeStop>("dbd_kernel::laws::SoftHingeStop"),
         KnownLaw::of::<laws::SoftDistanceStop>("dbd_kernel::laws::SoftDistanceStop"),
         KnownLaw::of::<laws::PlaneContact>("dbd_kernel::laws::PlaneContact"),
+        KnownLaw::of::<laws::SphereContact>("dbd_kernel::laws::SphereContact"),
+        KnownLaw::of::<laws::WheelContact>("dbd_kernel::laws::WheelContact"),
         KnownLaw::of::<laws::Bushing>("dbd_kernel::laws::Bushing"),
         KnownLaw::of::<laws::DistanceSpring>("dbd_kernel::laws::DistanceSpring"),
         KnownLaw::of::<laws::DistanceDamper>("dbd_kernel::laws::DistanceDamper"),

@@ -64,7 +64,7 @@ fn of_kind(field: &Field) -> Value {
     match field.kind {
         "count" => number(NotNegative),
         "points" => array(place(), 2),
-        "normal" | "axis" => heading(),
+        "normal" | "axis" | "axle" => heading(),
         "table" => json!({ "type": "array", "items": numbers(2, Any), "minItems": 2 }),
         _ => number(Any),
     }
@@ -76,7 +76,7 @@ fn meaning(field: &Field) -> String {
         "points" => {
             "[[x, y, z], [x, y, z]] m in the axes of the two bodies, or names of points; ".into()
         }
-        "normal" | "axis" => "[x, y, z] or two points, world at the initial pose; ".into(),
+        "normal" | "axis" | "axle" => "[x, y, z] or two points, world at the initial pose; ".into(),
         _ if field.units.is_empty() => String::new(),
         _ => format!("{}; ", field.units.join(", ")),
     };

@@ -3,7 +3,7 @@ use dbd_kernel::laws::{
     Bushing, Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop,
     Hinge, HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop,
     PlaneContact, SlideDrive, SlideFriction, SlideServo, SoftDistanceStop, SoftEndStop,
-    SoftHingeStop, Springs,
+    SoftHingeStop, SphereContact, Springs, WheelContact,
 };
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{BodyIndex, InputIndex, Real as _};
@@ -127,6 +127,55 @@ fn a_contact_keeps_what_laws_promise() {
     };
     hold(&contact, Poses::default()).unwrap();
     hold(&PlaneContact { radius: 0.0, friction: 0.0, ..contact }, Poses::default()).unwrap();
+}
+
+#[test]
+fn spheres_keep_what_laws_promise() {
+    let EndStop { bodies, points, .. } = end_stop(0.0);
+    let contact = SphereContact {
+        bodies,
+        points,
+        first_radius: 0.05,
+        second_radius: 0.03,
+        stiffness: 1e5,
+        dissipation: 0.5,
+        friction: 0.4,
+        shear: 0.8,
+        damping: 20.0,
+        rolling: 1e-3,
+    };
+    hold(&contact, Poses::default()).unwrap();
+    hold(&SphereContact { first_radius: 0.0, ..contact }, Poses::default()).unwrap();
+    hold(&SphereContact { friction: 0.0, ..contact }, Poses::default()).unwrap();
+}
+
+#[test]
+fn a_wheel_keeps_what_laws_promise() {
+    let EndStop { bodies, points, normal, .. } = end_stop(0.0);
+    let wheel = WheelContact {
+        bodies,
+        points,
+        normal,
+        axis: hinge(),
+        radius: 0.06,
+        tread: 0.01,
+        stiffness: 1e5,
+        dissipation: 0.5,
+        friction: 0.4,
+        slip_stiffness: 2e3,
+        cornering_stiffness: 1.5e3,
+        shear: 0.8,
+        damping: 20.0,
+        rolling: 1e-3,
+    };
+    hold(&wheel, Poses::default()).unwrap();
+    hold(&WheelContact { tread: 0.0, ..wheel }, Poses::default()).unwrap();
+    hold(&WheelContact { tread: 0.06, cornering_stiffness: 0.0, ..wheel }, Poses::default())
+        .unwrap();
+    let axis = Hinge { axis: normal, ..hinge() };
+    let lies = WheelContact { axis, friction: 0.0, ..wheel };
+    hold(&lies, Poses { turn: 0.05, ..Poses::default() }).unwrap();
+    hold(&lies, Poses { turn: 3.0, ..Poses::default() }).unwrap();
 }
 
 #[test]

@@ -8,6 +8,7 @@ use dbd_kernel::laws::{
     Bushing, Coupling, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop,
     HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact,
     SlideDrive, SlideFriction, SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop,
+    SphereContact, WheelContact,
 };
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
@@ -33,8 +34,6 @@ type Lawful<P, L> = Model<P, 3, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 3, 0, 
 type OfTurns<P> = Lawful<
     P,
     (
-        [Coupling<P>; 1],
-        [Bushing<P>; 1],
         [HingeStop<P>; 1],
         [SoftHingeStop<P>; 1],
         [HingeFriction<P>; 1],
@@ -49,11 +48,6 @@ type OfTurns<P> = Lawful<
 type OfTravels<P> = Lawful<
     P,
     (
-        [EndStop<P>; 1],
-        [SoftEndStop<P>; 1],
-        [DistanceStop<P>; 1],
-        [SoftDistanceStop<P>; 1],
-        [PlaneContact<P>; 1],
         [DistanceSpring<P>; 1],
         [DistanceDamper<P>; 1],
         [DistanceWinch<P>; 1],
@@ -62,6 +56,23 @@ type OfTravels<P> = Lawful<
         [SlideDrive<P>; 1],
     ),
 >;
+
+/// Stops and contacts.
+type OfContacts<P> = Lawful<
+    P,
+    (
+        [EndStop<P>; 1],
+        [SoftEndStop<P>; 1],
+        [DistanceStop<P>; 1],
+        [SoftDistanceStop<P>; 1],
+        [PlaneContact<P>; 1],
+        [SphereContact<P>; 1],
+        [WheelContact<P>; 1],
+    ),
+>;
+
+/// Couplings and mounts.
+type OfMounts<P> = Lawful<P, ([Coupling<P>; 1], [Bushing<P>; 1])>;
 
 macro_rules! step {
     ($keep:ident, $model:literal $type:ty, $name:literal $scheme:ty, $precision:literal) => {{
@@ -117,6 +128,8 @@ pub fn keep(keep: Keep) {
             $(
                 step!(keep, "laws-of-turns" OfTurns<$precision>, "leapfrog" Leapfrog, $name);
                 step!(keep, "laws-of-travels" OfTravels<$precision>, "leapfrog" Leapfrog, $name);
+                step!(keep, "laws-of-contacts" OfContacts<$precision>, "leapfrog" Leapfrog, $name);
+                step!(keep, "laws-of-mounts" OfMounts<$precision>, "leapfrog" Leapfrog, $name);
             )*
         };
     }
