@@ -4,9 +4,10 @@ use dbd_tests::page::{block, grouped, table};
 use dbd_tests::results::rows;
 
 /// Elements as counted: name of the scene, what it is, the most instructions that it ought to cost.
-const ELEMENTS: [(&str, &str, Option<f64>); 14] = [
+const ELEMENTS: [(&str, &str, Option<f64>); 16] = [
     ("tsda", "a TSDA without damping", None),
     ("spring-table", "`distance-spring`, five knots", None),
+    ("winch", "a TSDA with damping and an input of its free length", None),
     ("limits-free", "`limits` of a revolute joint with dissipation, within the range", Some(250.0)),
     ("limits-reached", "the same, beyond it", Some(250.0)),
     ("friction", "`friction` of a revolute joint, Coulomb's", Some(350.0)),
@@ -21,6 +22,7 @@ const ELEMENTS: [(&str, &str, Option<f64>); 14] = [
         Some(900.0),
     ),
     ("contact-pressed", "the same, in contact", Some(900.0)),
+    ("wheel", "`wheel-contact` with damping and rolling resistance, standing", Some(900.0)),
     ("bushing-undamped", "`bushing` without damping", None),
     ("bushing", "`bushing` with six dampings", None),
 ];
