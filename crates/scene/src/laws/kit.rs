@@ -43,7 +43,7 @@ type Twelve = [f64; 12];
 
 /// Tests a law between two bodies: action equals reaction and angular momentum is conserved, force is minus the
 /// gradient of the energy, the tangent bounds the change of the force, dampers dissipate power, and settling is
-/// idempotent.
+/// idempotent. A memory is settled at a pose and used there and at another one nearby.
 ///
 /// `law` is a row of it between `BodyIndex(0)` and `BodyIndex(1)`, with points near the origins of both.
 ///
@@ -54,13 +54,19 @@ pub fn hold<L: Law>(law: &L, poses: Poses) -> Result<(), String> {
     let mut met = false;
     for number in 0..poses.count {
         let state = random.state(poses);
-        met |= at(law, &state, poses.input).map_err(|why| format!("pose {number}: {why}"))?;
+        let [reach, turn] = [poses.reach, poses.turn].map(|most| 0.25 * most);
+        let way = [[reach; 3], [turn; 3], [reach; 3], [turn; 3]];
+        let way = way.as_flattened().iter().map(|most| random.between(*most));
+        let way: Vec<f64> = way.collect();
+        let later = moved(&state, &std::array::from_fn(|freedom| way[freedom]), 1.0);
+        met |= at(law, [&state, &later], poses.input)
+            .map_err(|why| format!("pose {number}: {why}"))?;
     }
     if met { Ok(()) } else { Err("the law has no effect at any pose: use another `reach`".into()) }
 }
 
-/// Checks the rules at a pose; returns whether the law has an effect there.
-fn at<L: Law>(law: &L, state: &State, input: f64) -> Result<bool, String> {
+/// Checks the rules at a pose and, with its memory, at a later one; returns whether the law has an effect there.
+fn at<L: Law>(law: &L, [state, later]: [&State; 2], input: f64) -> Result<bool, String> {
     let frames = frames(state);
     let signals = [Signal { value: input, rate: 0.0 }];
     let instant = Instant { frames: &frames, bodies: state, signals: &signals };
@@ -84,16 +90,31 @@ fn at<L: Law>(law: &L, state: &State, input: f64) -> Result<bool, String> {
     if words(&memory) != once {
         return Err(format!("settling is not idempotent: {once:?}, {:?}", words(&memory)));
     }
-    let Some(force_pair) = law.force_pair(&seen, &memory) else { return Ok(false) };
+    let acts = with(law, (state, input), &memory)?;
+    Ok(acts
+        | with(law, (later, input), &memory).map_err(|why| format!("without settling: {why}"))?)
+}
+
+/// Checks the rules at a pose with a memory.
+fn with<L: Law>(
+    law: &L,
+    (state, input): (&State, f64),
+    memory: &<L as Interaction<F64>>::State,
+) -> Result<bool, String> {
+    let frames = frames(state);
+    let signals = [Signal { value: input, rate: 0.0 }];
+    let instant = Instant { frames: &frames, bodies: state, signals: &signals };
+    let Some(seen) = instant.seen(law.bodies()) else { return Ok(false) };
+    let Some(force_pair) = law.force_pair(&seen, memory) else { return Ok(false) };
     let forces = generalised(&force_pair);
     let size = forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
     momentum(state, &force_pair)?;
-    gradient(law, (state, input), &memory, &forces, size)?;
-    tangent(law, (state, input), &memory, &seen)?;
+    gradient(law, (state, input), memory, &forces, size)?;
+    tangent(law, (state, input), memory, &seen)?;
     let mut acts = size > 0.0;
     let mut dampers = 0;
     let mut drawn = Ok(());
-    law.dampers(&seen, &memory, &mut |damper| {
+    law.dampers(&seen, memory, &mut |damper| {
         dampers += 1;
         let rate = seen.rate(&damper.direction);
         let tension = damper.tension(rate);
@@ -143,8 +164,11 @@ fn gradient<L: Law>(
         let (wide, narrow) = (slope(2.0 * STEP), slope(STEP));
         let most = size.max(narrow.abs());
         let is_smooth = (wide - narrow).abs() <= NEAR * most;
-        // Error of the difference due to the last digit of the energy.
-        let rounding = 1e-15 * energy(&way, 0.0).abs() / STEP;
+        // Errors of the difference due to the last digits of the energy and of the positions.
+        let (middle, [before, after]) =
+            (energy(&way, 0.0), [-STEP, STEP].map(|by| energy(&way, by)));
+        let stiffness = (before - 2.0 * middle + after) / (STEP * STEP);
+        let rounding = 1e-15 * (middle.abs() / STEP + stiffness.abs());
         if is_smooth && (narrow + forces[freedom]).abs() > NEAR * most + 10.0 * rounding {
             return Err(format!(
                 "force is not minus the energy gradient: {} and {} along degree of freedom \
