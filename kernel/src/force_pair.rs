@@ -59,6 +59,14 @@ pub struct Direction<S: Space> {
 }
 
 impl<S: Space> Direction<S> {
+    /// The direction whose rate is the sum of the rates of this and another.
+    #[inline(always)]
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        let ([a, b], [c, d]) = (self.moments, other.moments);
+        Self { along: self.along + other.along, moments: [a + c, b + d] }
+    }
+
     /// The direction scaled so that the rate is `by` times as large.
     #[inline(always)]
     #[must_use]

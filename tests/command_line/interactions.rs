@@ -21,6 +21,9 @@ fn the_page_has_a_table_of_each_law() {
                 "points" => "[[x, y, z], [x, y, z]] m or points".into(),
                 "normal" | "axis" | "axle" => "[x, y, z] or two points".into(),
                 "count" => "a whole number".into(),
+                "matrix" => {
+                    format!("six rows of six numbers, blocks in {}", field.units.join(", "))
+                }
                 "table" => format!("[[{}], …], the first ascending", field.units.join(", ")),
                 _ => field.units.join(", "),
             };

@@ -3,7 +3,7 @@
 //! `scene => interactions`. The geometry is that which a law writes to a [`FieldSink`].
 
 use dbd_kernel::laws::{
-    CoordinateKind, Field, FieldSink, Instant, Laws as _, MAX_TERMS, Row, Term,
+    CoordinateKind, Field, FieldSink, Instant, Laws as _, Ldl, MAX_TERMS, Row, Term,
 };
 use dbd_kernel::{BodyIndex, F64, Geometry as _, State};
 
@@ -126,6 +126,7 @@ impl FieldSink for Shape {
         self.axis.get_or_insert(axis);
     }
     fn table(&mut self, _: &Field, _: &[[f64; 2]], _: usize) {}
+    fn matrix(&mut self, _: &Field, _: &Ldl<f64>) {}
     // It is drawn at its first joint.
     fn terms(&mut self, field: &Field, terms: &[Option<Term>; MAX_TERMS]) {
         for body in terms.iter().flatten().flat_map(|term| term.bodies) {

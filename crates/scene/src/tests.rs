@@ -95,3 +95,30 @@ fn groups_follow_each_other_in_the_order_of_their_kinds() {
     let double = largest_extension(model, &State::initial(model));
     assert!((f64::from(extension) - double).abs() < 1e-6);
 }
+
+/// Exported source has the matrix of a law by its factors, and the tables that a scene leaves out as 0.
+#[test]
+fn laws_by_matrices_and_tables_are_exported() {
+    let text = include_str!("../../../tests/fuzz/corpus/scene/mounts.toml");
+    let text = text.replace("torque_z = [[\"-1 deg\", -5], [\"1 deg\", 5]]\n", "");
+    let scene = Scene::parse(&text, "mounts.toml").unwrap();
+    let source = export::model::<f32>(&scene);
+    let list = |start: &str| {
+        let (_, rest) = source.split_once(start).unwrap();
+        let (list, _) = rest.split_once(']').unwrap();
+        list.split(", ").map(str::to_owned).collect::<Vec<_>>()
+    };
+    let bits = |value: f32| format!("f32::from_bits({:#010x})", value.to_bits());
+    let (diagonal, below) = (list("Ldl { diagonal: ["), list("below: ["));
+    assert_eq!((diagonal.len(), below.len()), (6, 15));
+    assert_eq!(diagonal[0], bits(12e3));
+    assert_eq!(diagonal[1], bits((8000.0 - 500.0_f64 * (500.0 / 12e3)) as f32));
+    assert_eq!([&below[0], &below[3]], [&bits((500.0_f64 / 12e3) as f32), &bits(-60.0 / 12e3)]);
+    let none = format!("[{}, {}]", bits(0.0), bits(0.0));
+    let none = format!(
+        "torque_z: dbd_kernel::laws::Curve {{ knots: [{none}, [{}, {}]",
+        bits(1.0),
+        bits(0.0)
+    );
+    assert!(source.contains(&none), "{none}: {source}");
+}

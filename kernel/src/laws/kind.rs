@@ -6,6 +6,7 @@ use crate::geometry::{F64, Geometry};
 use crate::index::InputIndex;
 use crate::laws::curve::Curve;
 use crate::laws::hinge::Hinge;
+use crate::laws::ldl::Ldl;
 use crate::laws::term::{CoordinateKind, MAX_TERMS, Term};
 use crate::real::Real as _;
 use crate::space::{Linear as _, Space, Turn as _};
@@ -19,9 +20,10 @@ pub struct Field {
     pub name: &'static str,
     /// [`Kind::NAME`].
     pub kind: &'static str,
-    /// Units as in scenes, for example `N/m`; `1` without one. A table has two.
+    /// Units as in scenes, for example `N/m`; `1` without one. A table has two; a matrix has four, those of its blocks
+    /// row by row.
     pub units: &'static [&'static str],
-    /// \[unit of the field, SI\] the default of a number.
+    /// \[unit of the field, SI\] the default of a number; of a table its value at any x.
     pub default: Option<f64>,
     /// Its description, from its documentation.
     pub about: &'static str,
@@ -43,6 +45,8 @@ pub trait FieldSource {
     fn axis(&mut self, field: &Field) -> Option<([f64; 3], [f64; 4])>;
     /// Writes knots with ascending x to the front of `to`; returns their number.
     fn table(&mut self, field: &Field, to: &mut [[f64; 2]]) -> Option<usize>;
+    /// A symmetric positive semi-definite matrix.
+    fn matrix(&mut self, field: &Field) -> Option<Ldl<f64>>;
     /// Terms of a sum, the present ones first.
     fn terms(&mut self, field: &Field) -> Option<[Option<Term>; MAX_TERMS]>;
 }
@@ -61,6 +65,8 @@ pub trait FieldSink {
     fn axis(&mut self, field: &Field, axis: [f64; 3], reference: [f64; 4]);
     /// Knots, and their largest number.
     fn table(&mut self, field: &Field, knots: &[[f64; 2]], capacity: usize);
+    /// A symmetric positive semi-definite matrix.
+    fn matrix(&mut self, field: &Field, matrix: &Ldl<f64>);
     /// Terms of a sum.
     fn terms(&mut self, field: &Field, terms: &[Option<Term>; MAX_TERMS]);
 }
@@ -273,6 +279,28 @@ impl<const N: usize> Kind for Table<N> {
     }
     fn write_to(of: &Curve<f64, N>, field: &Field, sink: &mut dyn FieldSink) {
         sink.table(field, of.known(), N);
+    }
+}
+
+/// A symmetric positive semi-definite matrix over three displacements and three rotations: [`Ldl`].
+#[derive(Clone, Copy, Debug)]
+pub struct Matrix;
+
+impl Kind for Matrix {
+    type In<P: Geometry> = Ldl<P::Real>;
+    const NAME: &'static str = "matrix";
+
+    fn rounded<P: Geometry>(of: &Ldl<f64>) -> Ldl<P::Real> {
+        of.rounded()
+    }
+    fn visit<P: Geometry>(of: &Ldl<P::Real>, visitor: &mut dyn WordVisitor) {
+        of.diagonal.iter().chain(&of.below).for_each(|number| visitor.word(number.word()));
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<Ldl<f64>> {
+        source.matrix(field)
+    }
+    fn write_to(of: &Ldl<f64>, field: &Field, sink: &mut dyn FieldSink) {
+        sink.matrix(field, of);
     }
 }
 

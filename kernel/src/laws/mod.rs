@@ -19,10 +19,14 @@ mod branch;
 mod branches;
 mod brush;
 mod bushing;
+mod bushing_curves;
+mod bushing_matrix;
+mod bushing_maxwell;
 mod contact;
 mod coordinate;
 mod coupling;
 mod curve;
+mod deflection;
 mod distance_damper;
 mod distance_spring;
 mod distance_stop;
@@ -38,6 +42,7 @@ mod hinge_spring;
 mod hinge_stop;
 mod interaction;
 mod kind;
+mod ldl;
 mod list;
 mod plane_contact;
 mod rotor;
@@ -56,6 +61,9 @@ mod wheel_contact;
 
 pub use branch::{Branch, MAX_BRANCHES};
 pub use bushing::Bushing;
+pub use bushing_curves::BushingCurves;
+pub use bushing_matrix::BushingMatrix;
+pub use bushing_maxwell::{BushingMaxwell, Relaxed};
 pub use contact::Held;
 pub(crate) use coordinate::travel;
 pub use coupling::{Coupling, Sum};
@@ -80,9 +88,10 @@ pub use interaction::{
 #[doc(hidden)]
 pub use kind::first;
 pub use kind::{
-    Axis, Axle, Count, Field, FieldSink, FieldSource, Kind, Normal, Number, Points, Signal, Table,
-    Terms,
+    Axis, Axle, Count, Field, FieldSink, FieldSource, Kind, Matrix, Normal, Number, Points, Signal,
+    Table, Terms,
 };
+pub use ldl::Ldl;
 pub use list::Laws;
 pub use plane_contact::PlaneContact;
 pub use rotor::Rotor;

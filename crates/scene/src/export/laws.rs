@@ -2,7 +2,7 @@
 //!
 //! `(laws, precision) => type of the list, its rows`. Every number is its bit pattern.
 
-use dbd_kernel::laws::{CoordinateKind, Field, FieldSink, MAX_TERMS, Term};
+use dbd_kernel::laws::{CoordinateKind, Field, FieldSink, Ldl, MAX_TERMS, Term};
 use dbd_kernel::space::{Linear as _, Space, Turn as _};
 use dbd_kernel::{BodyIndex, F64, Geometry, Real as _};
 
@@ -95,6 +95,14 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
         let all = all.collect::<Vec<_>>().join(", ");
         let count = knots.len();
         self.push(field, &format!("dbd_kernel::laws::Curve {{ knots: [{all}], count: {count} }}"));
+    }
+    fn matrix(&mut self, field: &Field, Ldl { diagonal, below }: &Ldl<f64>) {
+        let list = |all: &[f64]| {
+            all.iter().map(|value| number::<P>(*value)).collect::<Vec<_>>().join(", ")
+        };
+        let (diagonal, below) = (list(diagonal), list(below));
+        let text = format!("dbd_kernel::laws::Ldl {{ diagonal: [{diagonal}], below: [{below}] }}");
+        self.push(field, &text);
     }
     fn terms(&mut self, field: &Field, terms: &[Option<Term>; MAX_TERMS]) {
         let term = |term: &Option<Term>| {

@@ -1,7 +1,7 @@
 //! Reads the constants of a law from its table.
 
 use dbd_kernel::attitude::Attitude as _;
-use dbd_kernel::laws::{Field, FieldSource, MAX_TERMS, Term};
+use dbd_kernel::laws::{Field, FieldSource, Ldl, MAX_TERMS, Term};
 use dbd_kernel::{Quaternion, Vec3};
 
 use crate::assembly::Assembly;
@@ -184,10 +184,22 @@ impl FieldSource for Reading<'_, '_> {
 
     fn table(&mut self, field: &Field, to: &mut [[f64; 2]]) -> Option<usize> {
         let kind = Knots { units: [unit(field, 0), unit(field, 1)], most: to.len() };
-        let read = self.table.required(field.name, kind);
+        let read = match field.default {
+            Some(value) => self
+                .table
+                .optional(field.name, kind)
+                .map(|given| given.unwrap_or_else(|| vec![[0.0, value], [1.0, value]])),
+            None => self.table.required(field.name, kind),
+        };
         let knots = self.keep(read)?;
         to.iter_mut().zip(&knots).for_each(|(place, knot)| *place = *knot);
         Some(knots.len())
+    }
+
+    fn matrix(&mut self, field: &Field) -> Option<Ldl<f64>> {
+        let units = [0, 1, 2, 3].map(|row| unit(field, row));
+        let read = self.table.required(field.name, Definite { units });
+        self.keep(read)
     }
 
     fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MAX_TERMS]> {
@@ -276,5 +288,40 @@ impl Kind for Knots {
             knots.push(knot);
         }
         Ok(knots)
+    }
+}
+
+/// A symmetric positive semi-definite matrix of six rows.
+struct Definite {
+    /// The units of its four blocks, row by row.
+    units: [&'static str; 4],
+}
+
+impl Kind for Definite {
+    type Output = Ldl<f64>;
+
+    fn expected(&self) -> String {
+        let [a, b, c, d] = self.units;
+        format!(
+            "a symmetric positive semi-definite matrix of 6 rows of 6 numbers in {a}, {b}; {c}, {d}"
+        )
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<Ldl<f64>, SceneError> {
+        let rows = value.entries(6, &self.expected())?;
+        let mut matrix = [[0.0; 6]; 6];
+        for (i, (row, to)) in rows.iter().zip(&mut matrix).enumerate() {
+            for (j, (entry, to)) in row.entries(6, &self.expected())?.iter().zip(to).enumerate() {
+                *to = Number::any(self.units[2 * (i / 3) + j / 3]).read(entry)?;
+            }
+        }
+        if let Some([row, column]) = Ldl::asymmetry(&matrix) {
+            let problem = format!(
+                "is not symmetric: its entry [{row}][{column}] differs from [{column}][{row}]"
+            );
+            return Err(rows[row].refuse(&problem, &self.expected()));
+        }
+        Ldl::of(&matrix)
+            .ok_or_else(|| value.refuse("is not positive semi-definite", &self.expected()))
     }
 }

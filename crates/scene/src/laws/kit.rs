@@ -322,4 +322,6 @@ impl Random {
 }
 
 #[cfg(test)]
+mod bushings;
+#[cfg(test)]
 mod tests;

@@ -6,7 +6,9 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use dbd_kernel::attitude::Attitude as _;
-use dbd_kernel::laws::{CoordinateKind, Field, FieldSink, FieldSource, Hinge, MAX_TERMS, Term};
+use dbd_kernel::laws::{
+    CoordinateKind, Field, FieldSink, FieldSource, Hinge, Ldl, MAX_TERMS, Term,
+};
 use dbd_kernel::{BodyIndex, F64, Geometry as _, Quaternion, Vec3};
 
 use crate::laws::LawList;
@@ -49,8 +51,13 @@ enum Known {
     Normal([f64; 3]),
     Axis([f64; 3], [f64; 4]),
     Table(Vec<[f64; 2]>),
+    Matrix(Box<Ldl<f64>>),
     Terms(Box<[Option<Term>; MAX_TERMS]>),
 }
+
+/// Rows of a matrix of six that are in the plane, and the others.
+const IN_PLANE: [usize; 3] = [0, 1, 5];
+const ACROSS: [usize; 3] = [2, 3, 4];
 
 /// Converts the constants of a row from space to the plane.
 struct Flat<'s> {
@@ -130,6 +137,18 @@ impl FieldSink for Flat<'_> {
     fn table(&mut self, _: &Field, knots: &[[f64; 2]], _: usize) {
         self.known.push_back(Known::Table(knots.to_vec()));
     }
+    fn matrix(&mut self, field: &Field, matrix: &Ldl<f64>) {
+        let entries = matrix.matrix();
+        // Displacements along x and y and the rotation about z are in the plane.
+        for (row, column) in IN_PLANE.iter().flat_map(|row| ACROSS.map(|column| (*row, column))) {
+            let size = entries[row][row] * entries[column][column];
+            let coupling = entries[row][column];
+            if coupling * coupling > ALIKE * ALIKE * size {
+                self.leaves(field, format!(": its entry [{row}][{column}] is not 0"));
+            }
+        }
+        self.known.push_back(Known::Matrix(Box::new(*matrix)));
+    }
     fn terms(&mut self, field: &Field, terms: &[Option<Term>; MAX_TERMS]) {
         let own = self.bodies;
         let flat = terms.map(|term| {
@@ -179,6 +198,9 @@ impl FieldSource for Flat<'_> {
         let Known::Table(knots) = self.known.pop_front()? else { return None };
         to.iter_mut().zip(&knots).for_each(|(place, knot)| *place = *knot);
         Some(knots.len())
+    }
+    fn matrix(&mut self, _: &Field) -> Option<Ldl<f64>> {
+        if let Known::Matrix(matrix) = self.known.pop_front()? { Some(*matrix) } else { None }
     }
     fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MAX_TERMS]> {
         if let Known::Terms(terms) = self.known.pop_front()? { Some(*terms) } else { None }

@@ -65,6 +65,7 @@ fn of_kind(field: &Field) -> Value {
         "count" => number(NotNegative),
         "points" => array(place(), 2),
         "normal" | "axis" | "axle" => heading(),
+        "matrix" => array(numbers(6, Any), 6),
         "table" => json!({ "type": "array", "items": numbers(2, Any), "minItems": 2 }),
         _ => number(Any),
     }

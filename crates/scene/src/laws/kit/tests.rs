@@ -1,9 +1,9 @@
 use super::*;
 use dbd_kernel::laws::{
-    Bushing, Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop,
-    Hinge, HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop,
-    PlaneContact, SlideDrive, SlideFriction, SlideServo, SoftDistanceStop, SoftEndStop,
-    SoftHingeStop, SphereContact, Springs, WheelContact,
+    Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop, Hinge,
+    HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact,
+    SlideDrive, SlideFriction, SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop,
+    SphereContact, Springs, WheelContact,
 };
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{BodyIndex, InputIndex, Real as _};
@@ -176,32 +176,6 @@ fn a_wheel_keeps_what_laws_promise() {
     let lies = WheelContact { axis, friction: 0.0, ..wheel };
     hold(&lies, Poses { turn: 0.05, ..Poses::default() }).unwrap();
     hold(&lies, Poses { turn: 3.0, ..Poses::default() }).unwrap();
-}
-
-#[test]
-fn a_bushing_keeps_what_laws_promise() {
-    let EndStop { bodies, points, .. } = end_stop(0.0);
-    let bushing = Bushing {
-        bodies,
-        points,
-        x: Vec3::new(0.8, 0.0, -0.6),
-        z: hinge(),
-        stiffness_x: 2e5,
-        stiffness_y: 5e4,
-        stiffness_z: 9e4,
-        turn_stiffness_x: 300.0,
-        turn_stiffness_y: 20.0,
-        turn_stiffness_z: 90.0,
-        damping_x: 30.0,
-        damping_y: 20.0,
-        damping_z: 10.0,
-        turn_damping_x: 0.3,
-        turn_damping_y: 0.2,
-        turn_damping_z: 0.1,
-    };
-    hold(&bushing, Poses::default()).unwrap();
-    let soft = Bushing { turn_stiffness_x: 0.0, damping_z: 0.0, ..bushing };
-    hold(&soft, Poses::default()).unwrap();
 }
 
 dbd_kernel::law! {

@@ -5,10 +5,10 @@
 //! shipped model with leapfrog in single precision, some in fixed point.
 
 use dbd_kernel::laws::{
-    Bushing, Coupling, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop,
-    HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact,
-    SlideDrive, SlideFriction, SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop,
-    SphereContact, WheelContact,
+    Bushing, BushingCurves, BushingMatrix, BushingMaxwell, Coupling, DistanceDamper,
+    DistanceSpring, DistanceStop, DistanceWinch, EndStop, HingeDamper, HingeDrive, HingeFriction,
+    HingeServo, HingeSpring, HingeStop, PlaneContact, SlideDrive, SlideFriction, SlideServo,
+    SoftDistanceStop, SoftEndStop, SoftHingeStop, SphereContact, WheelContact,
 };
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
@@ -72,7 +72,16 @@ type OfContacts<P> = Lawful<
 >;
 
 /// Couplings and mounts.
-type OfMounts<P> = Lawful<P, ([Coupling<P>; 1], [Bushing<P>; 1])>;
+type OfMounts<P> = Lawful<
+    P,
+    (
+        [Coupling<P>; 1],
+        [Bushing<P>; 1],
+        [BushingCurves<P>; 1],
+        [BushingMatrix<P>; 1],
+        [BushingMaxwell<P>; 1],
+    ),
+>;
 
 macro_rules! step {
     ($keep:ident, $model:literal $type:ty, $name:literal $scheme:ty, $precision:literal) => {{
