@@ -8,6 +8,8 @@ mod couplings;
 mod creep;
 mod drives;
 mod examples;
+mod mounts;
+mod relaxing;
 mod slides;
 mod soft;
 mod values;
