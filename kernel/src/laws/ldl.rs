@@ -56,9 +56,9 @@ impl Ldl<f64> {
                 }
                 let factor = if is_zero { 0.0 } else { entry / pivot };
                 *places.next()? = factor;
-                for further in column + 1..=row {
-                    left[row][further] -= factor * left[further][column];
-                }
+                let of_column = left.map(|row| row[column]);
+                let entries = left[row].iter_mut().zip(of_column).take(row + 1);
+                entries.skip(column + 1).for_each(|(entry, other)| *entry -= factor * other);
             }
         }
         diagonal
