@@ -106,6 +106,7 @@ fn of_drives<M: ModelOwner>(
         let Some(seen) = at.seen(law.bodies()) else { return };
         let [supplied, taken] = &mut sums;
         *supplied = *supplied + law.supply(&seen);
+        *taken = *taken + law.loss();
         let driven = law.driven_rate(&seen);
         let own = law.inner().map_or(RealOf::<M>::ZERO, |inner| inner.rate);
         law.each_damper(&seen, &mut |_, damper| {

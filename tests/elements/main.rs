@@ -10,6 +10,7 @@ mod drives;
 mod examples;
 mod mounts;
 mod relaxing;
+mod shaft;
 mod slides;
 mod soft;
 mod values;

@@ -1,5 +1,6 @@
 //! Soft starts of stops: continuous force and stiffness, energy, the same in plane and space.
 
+use crate::values::{Case, at, stop, until};
 use crate::{instance, value};
 
 /// A pendulum of 0.5 kg between soft stops of its joint, and a mass whose distance has one.
@@ -117,4 +118,41 @@ fn a_soft_stop_is_of_second_order() {
     let [(coarse, rebound), (fine, finer)] = [200e-6, 50e-6].map(off);
     assert!((8.0..40.0).contains(&(coarse / fine)), "{coarse} {fine}");
     assert!(rebound < 1e-3 && finer < 1e-4, "{rebound} {finer}");
+}
+
+/// The same with a soft start over 2 mm: the rebound does not depend on the spring.
+fn soft_stop() -> String {
+    stop().replace("\"end-stop\"", "\"soft-end-stop\"\nsoft = \"2 mm\"")
+}
+
+/// The depth x at which the spring, soft over s, has the energy that the impact leaves it: `k·(s²/6 + (x − s)·x/2) =
+/// m·(a·v − ln(1 + a·v))/a²`.
+fn penetration(soft: f64) -> f64 {
+    let (stiffness, a) = (1e5, 0.6_f64);
+    let energy = (a - a.ln_1p()) / (a * a);
+    0.5 * (soft + (soft * soft - 4.0 * (soft * soft / 3.0 - 2.0 * energy / stiffness)).sqrt())
+}
+
+/// The rows of the page.
+pub(crate) fn cases() -> Vec<Case> {
+    vec![
+        Case {
+            element: "soft-end-stop",
+            what: "penetration, soft over 2 mm",
+            unit: "m",
+            exact: penetration(2e-3),
+            step: 2e-4,
+            near: 1e-3,
+            found: Box::new(|h| -until(&soft_stop(), h, "mass.y", |time, _| time > 0.02)[0]),
+        },
+        Case {
+            element: "soft-end-stop",
+            what: "speed of its rebound",
+            unit: "m/s",
+            exact: 0.711_950_179_6,
+            step: 2e-4,
+            near: 1e-3,
+            found: Box::new(|h| at(&soft_stop(), h, 0.02, "mass.vy")),
+        },
+    ]
 }

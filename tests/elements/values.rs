@@ -7,7 +7,7 @@ use dbd_tests::page::{block, table};
 use nalgebra::{Matrix6, Vector6};
 
 use crate::drives::{ROTOR, period, wheel};
-use crate::{contacts, couplings, instance, mounts, value, winches};
+use crate::{contacts, couplings, instance, mounts, shaft, soft, value, winches};
 
 const G: f64 = 9.81;
 
@@ -33,7 +33,12 @@ pub(crate) fn mass(mass: f64, place: f64, speed: f64, gravity: f64, more: &str) 
 }
 
 /// Runs until `ends`; the least and the last of a column, and the time.
-fn until(text: &str, step: f64, name: &str, ends: impl Fn(f64, f64) -> bool) -> [f64; 3] {
+pub(crate) fn until(
+    text: &str,
+    step: f64,
+    name: &str,
+    ends: impl Fn(f64, f64) -> bool,
+) -> [f64; 3] {
     let mut run = instance(text, step, "f64");
     let output = run.output(name).unwrap();
     let mut least = f64::INFINITY;
@@ -54,7 +59,7 @@ pub(crate) fn at(text: &str, step: f64, time: f64, name: &str) -> f64 {
 }
 
 /// Hunt & Crossley (1975): k 1e5 N/m, a 0.6 s/m, 1 kg at 1 m/s; by Lambert's W.
-fn stop() -> String {
+pub(crate) fn stop() -> String {
     mass(
         1.0,
         0.001,
@@ -63,19 +68,6 @@ fn stop() -> String {
         "[[interaction]]\nlaw = \"end-stop\"\nbetween = [\"world\", \"mass\"]\npoints = [[0, 0, 0], [0, 0, 0]]\n\
          normal = [0, 1, 0]\nstiffness = 1e5\ndissipation = 0.6",
     )
-}
-
-/// The same with a soft start over 2 mm: the rebound does not depend on the spring.
-fn soft_stop() -> String {
-    stop().replace("\"end-stop\"", "\"soft-end-stop\"\nsoft = \"2 mm\"")
-}
-
-/// The depth x at which the spring, soft over s, has the energy that the impact leaves it: `k·(s²/6 + (x − s)·x/2) =
-/// m·(a·v − ln(1 + a·v))/a²`.
-fn penetration(soft: f64) -> f64 {
-    let (stiffness, a) = (1e5, 0.6_f64);
-    let energy = (a - a.ln_1p()) / (a * a);
-    0.5 * (soft + (soft * soft - 4.0 * (soft * soft / 3.0 - 2.0 * energy / stiffness)).sqrt())
 }
 
 const BUMP: &str = "[[interaction]]\nlaw = \"distance-spring\"\nbetween = [\"world\", \"mass\"]\n\
@@ -210,24 +202,6 @@ fn cases() -> Vec<Case> {
             Box::new(|h| at(&stop(), h, 0.02, "mass.vy")),
         ),
         case(
-            "soft-end-stop",
-            "penetration, soft over 2 mm",
-            "m",
-            penetration(2e-3),
-            2e-4,
-            1e-3,
-            Box::new(|h| -until(&soft_stop(), h, "mass.y", |time, _| time > 0.02)[0]),
-        ),
-        case(
-            "soft-end-stop",
-            "speed of its rebound",
-            "m/s",
-            0.711_950_179_6,
-            2e-4,
-            1e-3,
-            Box::new(|h| at(&soft_stop(), h, 0.02, "mass.vy")),
-        ),
-        case(
             "distance-spring",
             "depth in a bump stop",
             "m",
@@ -246,47 +220,6 @@ fn cases() -> Vec<Case> {
             2e-4,
             1e-3,
             Box::new(drawn),
-        ),
-        case(
-            "distance-winch",
-            "height 0.5 s after a lift with 0.5 m/s begins",
-            "m",
-            winches::lifted(0.5, 0.0),
-            2e-4,
-            1e-5,
-            Box::new(|h| {
-                at(&winches::hoist("acts = \"tension\"", winches::LIFT), h, 0.5, "load.y")
-            }),
-        ),
-        case(
-            "distance-winch",
-            "the same, 60 N·s/m",
-            "m",
-            winches::lifted(0.5, 60.0),
-            2e-4,
-            1e-5,
-            Box::new(|h| {
-                let rope = "damping = 60\nacts = \"tension\"";
-                at(&winches::hoist(rope, winches::LIFT), h, 0.5, "load.y")
-            }),
-        ),
-        case(
-            "distance-winch",
-            "period of 10 kg that fall 0.5 m on a rope",
-            "s",
-            0.744_140_559,
-            2e-4,
-            1e-5,
-            Box::new(|h| winches::bounce(h)[0]),
-        ),
-        case(
-            "distance-winch",
-            "largest tension of that rope",
-            "N",
-            1_093.400_76,
-            2e-4,
-            1e-4,
-            Box::new(|h| winches::bounce(h)[1]),
         ),
         case(
             "slide-friction",
@@ -414,7 +347,9 @@ fn cases() -> Vec<Case> {
 fn elements_reach_their_values() {
     let mut rows = Vec::new();
     let mut off = String::new();
-    for case in cases().into_iter().chain(contacts::cases()).chain(mounts::cases()) {
+    let further =
+        [contacts::cases(), mounts::cases(), soft::cases(), winches::cases(), shaft::cases()];
+    for case in cases().into_iter().chain(further.into_iter().flatten()) {
         let steps = [case.step, case.step / 2.0, case.step / 4.0];
         let found = steps.map(|step| (case.found)(step));
         let errors = found.map(|found| (found - case.exact).abs());

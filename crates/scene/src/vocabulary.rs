@@ -42,6 +42,7 @@ pub fn vocabulary() -> Vec<TableKeys> {
         one("friction", &[interaction::FRICTION]),
         one("rotor", &[interaction::ROTOR]),
         one("gear", &[interaction::GEAR]),
+        one("shaft_friction", &[interaction::SHAFT_FRICTION]),
         one("winding", &[interaction::WINDING]),
         one("coupling", &[interaction::COUPLING]),
         one("term", &[interaction::TERM]),

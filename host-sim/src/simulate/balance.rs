@@ -292,4 +292,81 @@ sine = { amplitude = "2 cm", frequency = 6 }
             assert!(found.remains.abs() > 0.1 * least, "{name}: {found:?}, right: {right:?}");
         }
     }
+
+    /// A rope whose free length is a sine, damped and slack at times, jumps once; a motor with friction turns a wheel.
+    const WINCH: &str = r#"
+name = "winch"
+duration = 1
+gravity = [0, -9.81, 0]
+[[body]]
+name = "load"
+mass = 5
+inertia = [0.1, 0.2, 0.2]
+position = [0, -2, 0]
+[[tsda]]
+name = "rope"
+between = ["world", "load"]
+points = [[0, 0, 0], [0, 0, 0]]
+stiffness = 1500
+damping = 20
+acts = "tension"
+[[input]]
+name = "winch"
+type = "free_length"
+target = "rope"
+sine = { amplitude = "3 cm", frequency = 2, offset = 2 }
+[[tsda]]
+name = "band"
+between = ["world", "load"]
+points = [[0, -4, 0], [0, 0, 0]]
+stiffness = 40
+[[input]]
+name = "hook"
+type = "free_length"
+target = "band"
+table = [[0, 1.5], [0.4, 1.2]]
+[[body]]
+name = "wheel"
+mass = 1
+inertia = [0.02, 0.02, 0.02]
+position = [1, 0, 0]
+[[joint]]
+name = "pivot"
+type = "revolute"
+between = ["world", "wheel"]
+at = [1, 0, 0]
+axis = [0, 0, 1]
+span = 0.1
+stiffness = 1e5
+[[input]]
+name = "motor"
+type = "drive"
+target = "pivot"
+mode = "velocity"
+kd = 2
+rotor = 0.01
+gear = { stiffness = 500, damping = 0.2 }
+friction = { coulomb = 0.4, viscous = 0.05 }
+table = [[0, 0], [0.3, 6], [0.7, -3]]
+interpolate = "linear"
+"#;
+
+    /// Springs that inputs move and friction of a motor's shaft leave no remainder.
+    #[test]
+    fn what_free_lengths_give_and_shafts_lose_is_counted() {
+        let remains = |step: f64| {
+            let scene = Scene::parse(WINCH, "winch.toml").unwrap();
+            let request =
+                Request { step: StepRequest::Given(step), duration: 1.0, every: Some(0.1) };
+            let plan = plan(&request).unwrap();
+            let mut balance = Balance::new(&scene, &Method::default(), &plan).unwrap().unwrap();
+            balance.advance(plan.steps);
+            balance.balance()
+        };
+        let [coarse, fine] = [2e-4, 5e-5].map(remains);
+        let least = [fine.inputs, fine.dampers].into_iter().fold(f64::INFINITY, f64::min);
+        assert!(least > 1.0 && fine.anchors == 0.0, "{fine:?}");
+        assert!(fine.remains.abs() < 2e-3 * least, "{fine:?}");
+        assert!(fine.remains.abs() < coarse.remains.abs(), "{coarse:?} {fine:?}");
+    }
 }

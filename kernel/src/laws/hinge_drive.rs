@@ -8,6 +8,7 @@ use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Inner, Interaction, Quantity, Springs, Wrong};
 use crate::laws::rotor::{Gear, Geared, Rotor};
 use crate::laws::servo::Effort;
+use crate::laws::shaft_friction::ShaftFriction;
 use crate::real::Real;
 use crate::words::{WordSource, WordVisitor, Words};
 
@@ -41,6 +42,40 @@ law! {
     }
 }
 
+law! {
+    /// A rotation of the second body relative to the first about an axis, driven by a rotor with friction behind a gear.
+    pub struct HingeDriveFriction = "hinge-drive-friction" {
+        /// Axis of rotation; the angle is 0 at t = 0 and includes whole revolutions.
+        axis: Axis,
+        /// Input of the drive.
+        input: Signal,
+        /// Effort per unit of the input: 1 for a torque or a force, the motor constant for a current.
+        gain: Number = 0.0,
+        /// Stiffness of a position servo.
+        servo_stiffness: Number("N·m/rad") = 0.0,
+        /// Damping of a servo; for a winding constant² / resistance.
+        servo_damping: Number("N·m·s/rad") = 0.0,
+        /// Rate per unit of the input at which the servo's effort is 0: 1 for a velocity, 1 / constant for a voltage.
+        feed: Number = 0.0,
+        /// Largest effort.
+        most: Number("N·m") = 1e30,
+        /// Time constant of the effort; for a winding inductance / resistance.
+        lag: Number("s") = 0.0,
+        /// Inertia of the rotor times the square of the gear ratio.
+        inertia: Number("kg·m²"),
+        /// Stiffness of the gear at its output.
+        stiffness: Number("N·m/rad"),
+        /// Damping of the gear at its output.
+        damping: Number("N·m·s/rad") = 0.0,
+        /// Backlash of the gear at its output, from one flank to the other.
+        play: Number("rad") = 0.0,
+        /// Dry friction of the rotor times the gear ratio.
+        coulomb: Number("N·m") = 0.0,
+        /// Viscous friction of the rotor times the square of the gear ratio.
+        viscous: Number("N·m·s/rad") = 0.0,
+    }
+}
+
 /// The memory of a drive of a rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnRotor<R> {
@@ -67,129 +102,173 @@ impl<R: Real> Words for TurnRotor<R> {
     }
 }
 
-impl<P: Geometry> HingeDrive<P> {
-    #[inline(always)]
-    fn effort(&self) -> Effort<P::Real> {
-        let Self { gain, servo_stiffness, servo_damping, feed, most, .. } = *self;
-        Effort { gain, stiffness: servo_stiffness, damping: servo_damping, feed, most }
-    }
+/// The law, with or without friction of the rotor.
+macro_rules! drive {
+    ($law:ident, $rubs:literal $(, $friction:ident)?) => {
+        impl<P: Geometry> $law<P> {
+            #[inline(always)]
+            fn effort(&self) -> Effort<P::Real> {
+                let Self { gain, servo_stiffness, servo_damping, feed, most, .. } = *self;
+                Effort { gain, stiffness: servo_stiffness, damping: servo_damping, feed, most }
+            }
 
-    #[inline(always)]
-    fn gear(&self) -> Gear<P::Real> {
-        let Self { inertia, stiffness, damping, play, lag, .. } = *self;
-        Gear { inertia, stiffness, damping, play, lag }
-    }
+            #[inline(always)]
+            fn friction(&self) -> ShaftFriction<P::Real> {
+                let [.., friction] = [ShaftFriction::NONE $(, self.$friction())?];
+                friction
+            }
 
-    /// Uses an angle near that of the last step: in single precision a large revolution count would leave no digits for
-    /// the gear.
+            #[inline(always)]
+            fn gear(&self) -> Gear<P::Real> {
+                let Self { inertia, stiffness, damping, play, lag, .. } = *self;
+                Gear { inertia, stiffness, damping, play, lag }
+            }
+
+            /// Uses an angle near that of the last step: in single precision a large revolution count would leave no digits for
+            /// the gear.
+            #[inline(always)]
+            fn geared(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Geared<P, $rubs>> {
+                let turn = Coordinate::turn(seen, &self.axis, turns.odd())?;
+                Some(Geared::new(turn, self.gear(), self.friction()))
+            }
+        }
+
+        impl<P: Geometry> Interaction<P> for $law<P> {
+            type State = TurnRotor<P::Real>;
+            type Dampers = [(); 1];
+            const ADVANCES: bool = true;
+            const INNER: bool = true;
+            const QUANTITIES: &'static [Quantity] = &[
+                Quantity { name: "load", unit: "N·m" },
+                Quantity { name: "effort", unit: "N·m" },
+                Quantity { name: "ahead", unit: "rad" },
+                Quantity { name: "rate", unit: "rad/s" },
+            ];
+
+            #[inline(always)]
+            fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut TurnRotor<P::Real>) {
+                let Some(geared) = self.geared(seen, memory.turns) else { return };
+                geared.advance(h, &mut memory.rotor);
+            }
+
+            #[inline(always)]
+            fn settle(&self, seen: &Seen<'_, P>, memory: &mut TurnRotor<P::Real>) {
+                let Some(geared) = self.geared(seen, memory.turns) else { return };
+                let Some(torsion_angle) = self.axis.seen(seen) else { return };
+                torsion_angle.settle(&mut memory.turns);
+                let (next, _) = torsion_angle.angle(memory.turns.odd());
+                geared.settle(seen, next, &mut memory.rotor);
+            }
+
+            #[inline(always)]
+            fn force_pair(
+                &self,
+                seen: &Seen<'_, P>,
+                memory: &TurnRotor<P::Real>,
+            ) -> Option<ForcePair<P::Space>> {
+                Some(self.geared(seen, memory.turns)?.force_pair(seen, &memory.rotor))
+            }
+
+            fn energy(&self, seen: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {
+                let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
+                geared.energy(seen, &memory.rotor)
+            }
+
+            fn tangent(
+                &self,
+                seen: &Seen<'_, P>,
+                memory: &TurnRotor<P::Real>,
+                visit: Springs<'_, P>,
+            ) -> [P::Real; 2] {
+                let Some(geared) = self.geared(seen, memory.turns) else {
+                    return [P::Real::ZERO; 2];
+                };
+                geared.tangent(seen, &memory.rotor, visit)
+            }
+
+            #[inline(always)]
+            fn dampers(
+                &self,
+                seen: &Seen<'_, P>,
+                memory: &TurnRotor<P::Real>,
+                visit: &mut impl FnMut(Damper<P>),
+            ) {
+                let Some(geared) = self.geared(seen, memory.turns) else { return };
+                visit(geared.damper(seen, &memory.rotor));
+            }
+
+            #[inline(always)]
+            fn kick(
+                &self,
+                seen: &Seen<'_, P>,
+                h: P::Real,
+                memory: &mut TurnRotor<P::Real>,
+            ) -> P::Real {
+                let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
+                let driven = (&self.effort(), seen.signal(self.input));
+                geared.kick(driven, h, &mut memory.rotor)
+            }
+
+            #[inline(always)]
+            fn drive(
+                &self,
+                seen: &Seen<'_, P>,
+                time: [P::Real; 2],
+                memory: &mut TurnRotor<P::Real>,
+            ) {
+                let Some(geared) = self.geared(seen, memory.turns) else { return };
+                let driven = (&self.effort(), seen.signal(self.input));
+                let place = geared.place(&memory.rotor) + memory.turns.whole();
+                geared.drive(driven, place, time, &mut memory.rotor);
+            }
+
+            #[inline(always)]
+            fn inner(&self, memory: &TurnRotor<P::Real>, kick: P::Real) -> Inner<P::Real> {
+                self.gear().inner(&memory.rotor, kick)
+            }
+
+            #[inline(always)]
+            fn set_inner(&self, rate: P::Real, memory: &mut TurnRotor<P::Real>) {
+                memory.rotor.rate = rate;
+            }
+
+            fn inner_square(&self) -> P::Real {
+                self.gear().square(self.servo_stiffness)
+            }
+
+            fn supply(&self, _: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {
+                memory.rotor.supply()
+            }
+
+            fn loss(&self, memory: &Self::State) -> P::Real {
+                self.friction().loss(memory.rotor.rate)
+            }
+
+            fn check(&self) -> Result<(), Wrong> {
+                self.effort().check()?;
+                self.friction().check()?;
+                self.gear().check()
+            }
+
+            fn read(
+                &self,
+                quantity: usize,
+                seen: &Seen<'_, P>,
+                memory: &TurnRotor<P::Real>,
+            ) -> P::Real {
+                let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
+                geared.read(quantity, &memory.rotor)
+            }
+        }
+    };
+}
+
+impl<P: Geometry> HingeDriveFriction<P> {
     #[inline(always)]
-    fn geared(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Geared<P>> {
-        Some(Geared::new(Coordinate::turn(seen, &self.axis, turns.odd())?, self.gear()))
+    fn of_shaft(&self) -> ShaftFriction<P::Real> {
+        ShaftFriction { coulomb: self.coulomb, viscous: self.viscous }
     }
 }
 
-impl<P: Geometry> Interaction<P> for HingeDrive<P> {
-    type State = TurnRotor<P::Real>;
-    type Dampers = [(); 1];
-    const ADVANCES: bool = true;
-    const INNER: bool = true;
-    const QUANTITIES: &'static [Quantity] = &[
-        Quantity { name: "load", unit: "N·m" },
-        Quantity { name: "effort", unit: "N·m" },
-        Quantity { name: "ahead", unit: "rad" },
-        Quantity { name: "rate", unit: "rad/s" },
-    ];
-
-    #[inline(always)]
-    fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut TurnRotor<P::Real>) {
-        let Some(geared) = self.geared(seen, memory.turns) else { return };
-        geared.advance(h, &mut memory.rotor);
-    }
-
-    #[inline(always)]
-    fn settle(&self, seen: &Seen<'_, P>, memory: &mut TurnRotor<P::Real>) {
-        let Some(geared) = self.geared(seen, memory.turns) else { return };
-        let Some(torsion_angle) = self.axis.seen(seen) else { return };
-        torsion_angle.settle(&mut memory.turns);
-        let (next, _) = torsion_angle.angle(memory.turns.odd());
-        geared.settle(seen, next, &mut memory.rotor);
-    }
-
-    #[inline(always)]
-    fn force_pair(
-        &self,
-        seen: &Seen<'_, P>,
-        memory: &TurnRotor<P::Real>,
-    ) -> Option<ForcePair<P::Space>> {
-        Some(self.geared(seen, memory.turns)?.force_pair(seen, &memory.rotor))
-    }
-
-    fn energy(&self, seen: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {
-        let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
-        geared.energy(seen, &memory.rotor)
-    }
-
-    fn tangent(
-        &self,
-        seen: &Seen<'_, P>,
-        memory: &TurnRotor<P::Real>,
-        visit: Springs<'_, P>,
-    ) -> [P::Real; 2] {
-        let Some(geared) = self.geared(seen, memory.turns) else { return [P::Real::ZERO; 2] };
-        geared.tangent(seen, &memory.rotor, visit)
-    }
-
-    #[inline(always)]
-    fn dampers(
-        &self,
-        seen: &Seen<'_, P>,
-        memory: &TurnRotor<P::Real>,
-        visit: &mut impl FnMut(Damper<P>),
-    ) {
-        let Some(geared) = self.geared(seen, memory.turns) else { return };
-        visit(geared.damper(seen, &memory.rotor));
-    }
-
-    #[inline(always)]
-    fn kick(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut TurnRotor<P::Real>) -> P::Real {
-        let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
-        let driven = (&self.effort(), seen.signal(self.input));
-        geared.kick(driven, h, &mut memory.rotor)
-    }
-
-    #[inline(always)]
-    fn drive(&self, seen: &Seen<'_, P>, time: [P::Real; 2], memory: &mut TurnRotor<P::Real>) {
-        let Some(geared) = self.geared(seen, memory.turns) else { return };
-        let driven = (&self.effort(), seen.signal(self.input));
-        let place = geared.place(&memory.rotor) + memory.turns.whole();
-        geared.drive(driven, place, time, &mut memory.rotor);
-    }
-
-    #[inline(always)]
-    fn inner(&self, memory: &TurnRotor<P::Real>, kick: P::Real) -> Inner<P::Real> {
-        self.gear().inner(&memory.rotor, kick)
-    }
-
-    #[inline(always)]
-    fn set_inner(&self, rate: P::Real, memory: &mut TurnRotor<P::Real>) {
-        memory.rotor.rate = rate;
-    }
-
-    fn inner_square(&self) -> P::Real {
-        self.gear().square(self.servo_stiffness)
-    }
-
-    fn supply(&self, _: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {
-        memory.rotor.supply()
-    }
-
-    fn check(&self) -> Result<(), Wrong> {
-        self.effort().check()?;
-        self.gear().check()
-    }
-
-    fn read(&self, quantity: usize, seen: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {
-        let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
-        geared.read(quantity, &memory.rotor)
-    }
-}
+drive!(HingeDrive, false);
+drive!(HingeDriveFriction, true, of_shaft);

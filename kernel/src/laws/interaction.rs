@@ -343,6 +343,11 @@ pub trait Interaction<P: Geometry>: Constants<P> {
         P::Real::ZERO
     }
 
+    /// \[W\] the loss of its internal degree of freedom by friction, apart from its dampers.
+    fn loss(&self, _state: &Self::State) -> P::Real {
+        P::Real::ZERO
+    }
+
     /// \[m/s, rad/s\] the part of its dampers' target rate that an input gives: its power is that of the input. Not for
     /// [`Self::DRIVES`].
     fn driven_rate(&self, _seen: &Seen<'_, P>) -> P::Real {

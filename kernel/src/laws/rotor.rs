@@ -17,6 +17,7 @@ use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Inner, Springs, Wrong};
 use crate::laws::servo::Effort;
+use crate::laws::shaft_friction::ShaftFriction;
 use crate::real::Real;
 use crate::schedule::Signal;
 use crate::words::{Word, WordSource, WordVisitor, Words};
@@ -112,16 +113,22 @@ impl<R: Real> Gear<R> {
 }
 
 /// A coordinate that a rotor drives.
-pub(super) struct Geared<P: Geometry> {
+pub(super) struct Geared<P: Geometry, const RUBS: bool> {
     /// Its value is precise near that at the end of the last step, not unwrapped.
     coordinate: Coordinate<P>,
     gear: Gear<P::Real>,
+    /// Unused where it does not rub.
+    friction: ShaftFriction<P::Real>,
 }
 
-impl<P: Geometry> Geared<P> {
+impl<P: Geometry, const RUBS: bool> Geared<P, RUBS> {
     #[inline(always)]
-    pub(super) fn new(coordinate: Coordinate<P>, gear: Gear<P::Real>) -> Self {
-        Self { coordinate, gear }
+    pub(super) fn new(
+        coordinate: Coordinate<P>,
+        gear: Gear<P::Real>,
+        friction: ShaftFriction<P::Real>,
+    ) -> Self {
+        Self { coordinate, gear, friction }
     }
 
     /// δ at this pose.
@@ -203,14 +210,28 @@ impl<P: Geometry> Geared<P> {
         h: P::Real,
         rotor: &mut Rotor<P::Real>,
     ) -> P::Real {
+        let mut kick = self.whole_kick((effort, signal), h, rotor);
+        if RUBS {
+            kick = self.friction.kick(&self.gear, (h, kick), rotor);
+        }
+        rotor.rate = rotor.rate + kick;
+        kick
+    }
+
+    /// The kick without friction.
+    #[inline(always)]
+    fn whole_kick(
+        &self,
+        (effort, signal): (&Effort<P::Real>, Signal<P::Real>),
+        h: P::Real,
+        rotor: &mut Rotor<P::Real>,
+    ) -> P::Real {
         let mut force = -self.pull(rotor);
         if effort.damping == P::Real::ZERO && self.gear.lag == P::Real::ZERO {
             rotor.effort = effort.bounded(effort.gain * signal.value);
             force = force + rotor.effort;
         }
-        let kick = h * force / self.gear.inertia;
-        rotor.rate = rotor.rate + kick;
-        kick
+        h * force / self.gear.inertia
     }
 
     /// Drives and damps the rotor for the time `h` \[s\], including the kick: the flow of `m·v̇ = m·kick/h + τ`.
@@ -223,6 +244,11 @@ impl<P: Geometry> Geared<P> {
         [h, kick]: [P::Real; 2],
         rotor: &mut Rotor<P::Real>,
     ) {
+        if RUBS {
+            let whole = self.whole_kick((effort, signal), h, rotor);
+            let driven = (effort, signal, place);
+            return self.friction.drive(&self.gear, driven, ([h, kick], whole), rotor);
+        }
         let one = P::Real::ONE;
         let Gear { inertia, lag, .. } = self.gear;
         let (inverse, towards) = (one / inertia, effort.towards(signal, place));

@@ -80,6 +80,8 @@ pub trait Row<P: Geometry> {
     fn inner_square(&self) -> P::Real;
     /// [`Interaction::supply`](crate::laws::Interaction::supply).
     fn supply(&self, seen: &Seen<'_, P>) -> P::Real;
+    /// [`Interaction::loss`](crate::laws::Interaction::loss).
+    fn loss(&self) -> P::Real;
     /// [`Interaction::driven_rate`](crate::laws::Interaction::driven_rate).
     fn driven_rate(&self, seen: &Seen<'_, P>) -> P::Real;
     /// [`Interaction::QUANTITIES`](crate::laws::Interaction::QUANTITIES).

@@ -249,6 +249,9 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
     fn supply(&self, seen: &Seen<'_, P>) -> P::Real {
         self.law.supply(seen, self.state)
     }
+    fn loss(&self) -> P::Real {
+        self.law.loss(self.state)
+    }
     fn driven_rate(&self, seen: &Seen<'_, P>) -> P::Real {
         self.law.driven_rate(seen)
     }

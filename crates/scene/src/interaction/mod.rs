@@ -10,7 +10,9 @@ mod of_springs;
 mod of_winches;
 
 pub(crate) use of_couplings::{KEYS as COUPLING, TERM};
-pub(crate) use of_drives::{Driven, GEAR, KEYS as DRIVE, TYPE as DRIVE_TYPE, WINDING};
+pub(crate) use of_drives::{
+    Driven, GEAR, KEYS as DRIVE, SHAFT_FRICTION, TYPE as DRIVE_TYPE, WINDING,
+};
 pub(crate) use of_joints::{FRICTION, LIMITS, ROTOR};
 pub(crate) use of_winches::{
     KEYS as WINCH, TYPE as WINCH_TYPE, check as check_lengths, drive_of as drive_of_length,

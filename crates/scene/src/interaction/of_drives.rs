@@ -14,8 +14,13 @@ use crate::text::{Choice, Number, Table};
 pub(crate) const TYPE: &str = "drive";
 
 /// The keys of a drive.
-pub(crate) const KEYS: &[&str] =
-    &["target", "freedom", "mode", "kp", "kd", "most", "lag", "winding", "rotor", "ratio", "gear"];
+pub(crate) const KEYS: &[&str] = &[
+    "target", "freedom", "mode", "kp", "kd", "most", "lag", "winding", "rotor", "ratio", "gear",
+    "friction",
+];
+
+/// The keys of the friction of its rotor.
+pub(crate) const SHAFT_FRICTION: &[&str] = &["coulomb", "viscous"];
 
 /// The keys of its gear.
 pub(crate) const GEAR: &[&str] = &["stiffness", "damping", "play"];
@@ -108,6 +113,11 @@ impl<'j> Driven<'j> {
     pub(super) fn law(&self, table: &Table<'_>) -> Result<(&'static str, Constants), SceneError> {
         let mut constants = Constants::default();
         let has_rotor = table.has("rotor");
+        if !has_rotor && table.has("friction") {
+            let help = "it is that of the motor's shaft: give its inertia as `rotor`, or use the \
+                `friction` of the joint";
+            return Err(table.refuse_key("friction", "requires a `rotor`", help));
+        }
         for (key, why) in [("ratio", "ratio"), ("gear", "gear")] {
             if !has_rotor && table.has(key) && !(key == "ratio" && self.mode.is_wound()) {
                 let help = format!(
@@ -121,9 +131,12 @@ impl<'j> Driven<'j> {
         if has_rotor {
             self.rotor(table, ratio, &mut constants)?;
         }
+        let rubs = self.friction(table, ratio, &mut constants)?;
         let law = match (self.turns, has_rotor) {
+            (true, true) if rubs => "hinge-drive-friction",
             (true, true) => "hinge-drive",
             (true, false) => "hinge-servo",
+            (false, true) if rubs => "slide-drive-friction",
             (false, true) => "slide-drive",
             (false, false) => "slide-servo",
         };
@@ -255,6 +268,29 @@ impl<'j> Driven<'j> {
         let play = gear.optional("play", Number::not_negative(units.place))?;
         constants.add("play", play.unwrap_or(0.0));
         Ok(())
+    }
+}
+
+impl Driven<'_> {
+    /// Friction of the rotor at its shaft; whether it has any.
+    fn friction(
+        &self,
+        table: &Table<'_>,
+        ratio: f64,
+        constants: &mut Constants,
+    ) -> Result<bool, SceneError> {
+        let Some(value) = table.value("friction") else { return Ok(false) };
+        let shaft = if self.turns || table.has("ratio") { &TURN } else { &TRAVEL };
+        let friction = value.table("{ coulomb = …, viscous = … } of the motor's shaft")?;
+        friction.only(&[SHAFT_FRICTION])?;
+        let read = |key: &str, unit| {
+            Ok(friction.optional(key, Number::not_negative(unit))?.unwrap_or(0.0))
+        };
+        let coulomb: f64 = read("coulomb", shaft.effort)? * ratio.abs();
+        let viscous: f64 = read("viscous", shaft.damping)? * (ratio * ratio);
+        constants.add("coulomb", coulomb);
+        constants.add("viscous", viscous);
+        Ok(coulomb > 0.0 || viscous > 0.0)
     }
 }
 

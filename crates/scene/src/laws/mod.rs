@@ -72,6 +72,8 @@ pub fn known_laws() -> Vec<KnownLaw> {
         KnownLaw::of::<laws::SlideServo>("dbd_kernel::laws::SlideServo"),
         KnownLaw::of::<laws::HingeDrive>("dbd_kernel::laws::HingeDrive"),
         KnownLaw::of::<laws::SlideDrive>("dbd_kernel::laws::SlideDrive"),
+        KnownLaw::of::<laws::HingeDriveFriction>("dbd_kernel::laws::HingeDriveFriction"),
+        KnownLaw::of::<laws::SlideDriveFriction>("dbd_kernel::laws::SlideDriveFriction"),
     ];
     let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
     linked_laws().into_iter().chain(own.iter().cloned()).for_each(|law| put(&mut known, law));

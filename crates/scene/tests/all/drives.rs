@@ -256,3 +256,49 @@ fn a_range_bounds_what_a_caller_sets() {
         assert!(error.contains(part), "{more}: `{part}` is not in\n{error}");
     }
 }
+
+/// Friction is given at the shaft: the ratio brings it to the joint.
+#[test]
+fn friction_of_a_shaft_is_that_of_its_law_at_the_joint() {
+    let keyed = scene(&drive(
+        "target = \"pivot\"\nmode = \"torque\"\nrotor = \"20 kg*mm^2\"\nratio = -10\n\
+         gear = { stiffness = 500 }\nfriction = { coulomb = \"3 mN*m\", viscous = 2e-6 }\nvalue = 12",
+    ))
+    .unwrap();
+    let listed = scene(
+        "[[input]]\nname = \"u\"\ntype = \"signal\"\nvalue = 12\n[[interaction]]\n\
+         law = \"hinge-drive-friction\"\nbetween = [\"slider\", \"lever\"]\naxis = [0, 0, 1]\ninput = \"u\"\n\
+         gain = 1\ninertia = 0.002\nstiffness = 500\ncoulomb = 0.03\nviscous = 0.0002",
+    )
+    .unwrap();
+    let of = |scene: &Scene| {
+        let mut plant = Plant::new(&scene.model, Leapfrog, 1e-4).unwrap();
+        for _ in 0..100 {
+            let _ = plant.step();
+        }
+        plant.state().hash()
+    };
+    assert_eq!(of(&keyed), of(&listed));
+    let slide = "target = \"guide\"\nmode = \"force\"\nrotor = 0.1\ngear = { stiffness = 500 }";
+    for (keys, law) in [
+        ("friction = { coulomb = \"1 N\" }", "slide-drive-friction"),
+        ("friction = { viscous = \"1 N*s/m\" }", "slide-drive-friction"),
+        ("ratio = \"100 rad/m\"\nfriction = { coulomb = \"1 mN*m\" }", "slide-drive-friction"),
+        ("friction = { viscous = 0 }", "slide-drive"),
+    ] {
+        let scene = scene(&drive(&format!("{slide}\n{keys}"))).unwrap();
+        assert_eq!(dbd_scene::interactions(&scene)[0].law, law, "{keys}");
+    }
+    let servo = "target = \"pivot\"\nmode = \"velocity\"\nkd = 1";
+    for (keys, parts) in [
+        (format!("{servo}\nfriction = {{ coulomb = 1 }}"), ["requires a `rotor`", "joint"]),
+        (format!("{slide}\nfriction = {{ coulomb = -1 }}"), ["`coulomb`", "≥ 0 in N"]),
+        (format!("{slide}\nfriction = {{ coulomb = \"1 N*m\" }}"), ["`coulomb`", "N"]),
+        (format!("{slide}\nfriction = {{ breakaway = 1 }}"), ["no key `breakaway`", "viscous"]),
+        (format!("{slide}\nfriction = 1"), ["friction", "coulomb"]),
+    ] {
+        let said = scene(&drive(&keys)).err().unwrap_or_default();
+        let flat = said.split_whitespace().collect::<Vec<_>>().join(" ").replace("│ ", "");
+        assert!(parts.iter().all(|part| flat.contains(part)), "{keys}: {said}");
+    }
+}

@@ -277,3 +277,38 @@ fn bad_limits_are_refused_with_place_reason_and_remedy() {
         }
     }
 }
+
+/// `soft` above 0 names the soft law, 0 the hard one; an interaction names it itself.
+#[test]
+fn soft_limits_are_laws_of_their_own() {
+    let laws = |soft: &str| {
+        let limits = format!("limits = {{ to = 1, stiffness = 50{soft} }}");
+        let strut = format!(
+            "[[tsda]]\nname = \"strut\"\nbetween = [\"lever\", \"world\"]\npoints = [[0, 0.1, 0], [0.5, 0, 0]]\n\
+             stiffness = 100\nfree_length = \"initial\"\n{limits}\n[[torsion_spring]]\nbetween = [\"world\", \"lever\"]\n\
+             axis = [0, 0, 2]\nstiffness = 3\n{limits}\n"
+        );
+        let scene = scene(&limits, &strut).unwrap_or_else(|said| panic!("{said}"));
+        dbd_scene::interactions(&scene).iter().map(|law| law.law).collect::<Vec<_>>()
+    };
+    let soft = laws(", soft = 0.01");
+    assert!(soft.iter().all(|law| law.starts_with("soft-")), "{soft:?}");
+    let hard: Vec<_> = soft.iter().filter_map(|law| law.strip_prefix("soft-")).collect();
+    assert_eq!([laws(""), laws(", soft = 0")], [hard.clone(), hard]);
+    let stop = |law: &str, soft: &str| {
+        format!(
+            "[[interaction]]\nlaw = \"{law}\"\nbetween = [\"world\", \"slider\"]\npoints = [[0, 0, 0], [0, 0, 0]]\n\
+             normal = [1, 0, 0]\nstiffness = 1e5\n{soft}\n"
+        )
+    };
+    scene("", &stop("soft-end-stop", "soft = \"1 mm\"")).unwrap();
+    for (text, parts) in [
+        (stop("end-stop", "soft = 1"), ["`soft`", "`law = \"soft-end-stop\"`"]),
+        (stop("soft-end-stop", "soft = 0"), ["is not positive", "> 0"]),
+        (stop("soft-end-stop", ""), ["has no `soft`", "m"]),
+        (stop("soft-end-stop", "soft = \"1 deg\""), ["`soft`", "m"]),
+    ] {
+        let said = scene("", &text).err().unwrap_or_default();
+        assert!(parts.iter().all(|part| said.contains(part)), "{text}: {said}");
+    }
+}

@@ -266,6 +266,11 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "Between rotor and joint: { stiffness = …, damping = …, play = … }",
             "none",
         ),
+        "friction" => Key(
+            within("shaft_friction", tables, &[]),
+            "Of the motor's shaft: { coulomb = …, viscous = … }",
+            "none",
+        ),
         _ => return None,
     })
 }

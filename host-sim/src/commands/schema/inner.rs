@@ -22,6 +22,7 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         "limits" => of_limits(key),
         "friction" => of_friction(key),
         "gear" => of_gear(key),
+        "shaft_friction" => of_shaft_friction(key),
         "rotor" if key == "inertia" => Some(Key(
             number(Positive),
             "kg·m² or kg, > 0: rotor inertia times the square of the ratio",
@@ -245,6 +246,22 @@ fn of_friction(key: &str) -> Option<Key> {
         "viscous" => {
             Key(number(NotNegative), "N·m·s/rad or N·s/m: viscous coefficient during sliding", "0")
         }
+        _ => return None,
+    })
+}
+
+fn of_shaft_friction(key: &str) -> Option<Key> {
+    Some(match key {
+        "coulomb" => Key(
+            number(NotNegative),
+            "N·m at the motor's shaft; along a slide without a `ratio` N: dry friction, which sticks",
+            "0",
+        ),
+        "viscous" => Key(
+            number(NotNegative),
+            "N·m·s/rad at the motor's shaft; along a slide without a `ratio` N·s/m",
+            "0",
+        ),
         _ => return None,
     })
 }

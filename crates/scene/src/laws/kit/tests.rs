@@ -1,9 +1,9 @@
 use super::*;
 use dbd_kernel::laws::{
     Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop, Hinge,
-    HingeDamper, HingeDrive, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact,
-    SlideDrive, SlideFriction, SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop,
-    SphereContact, Springs, WheelContact,
+    HingeDamper, HingeDrive, HingeDriveFriction, HingeFriction, HingeServo, HingeSpring, HingeStop,
+    PlaneContact, SlideDrive, SlideDriveFriction, SlideFriction, SlideServo, SoftDistanceStop,
+    SoftEndStop, SoftHingeStop, SphereContact, Springs, WheelContact,
 };
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{BodyIndex, InputIndex, Real as _};
@@ -325,6 +325,46 @@ fn drives_keep_what_laws_promise() {
             stiffness: 2e3,
             damping,
             play,
+        };
+        hold(&travel, poses).unwrap();
+        let HingeDrive { bodies, axis, gain, lag, inertia, stiffness, .. } = turn;
+        let [coulomb, viscous] = [0.3, 0.02];
+        let turn = HingeDriveFriction {
+            bodies,
+            axis,
+            input,
+            gain,
+            servo_stiffness,
+            servo_damping,
+            feed,
+            most,
+            lag,
+            inertia,
+            stiffness,
+            damping,
+            play,
+            coulomb,
+            viscous,
+        };
+        hold(&turn, poses).unwrap();
+        let SlideDrive { axis, .. } = travel;
+        let travel = SlideDriveFriction {
+            bodies,
+            points,
+            axis,
+            input,
+            gain,
+            servo_stiffness,
+            servo_damping,
+            feed,
+            most,
+            lag,
+            inertia,
+            stiffness,
+            damping,
+            play,
+            coulomb,
+            viscous,
         };
         hold(&travel, poses).unwrap();
     }

@@ -6,9 +6,10 @@
 
 use dbd_kernel::laws::{
     Bushing, BushingCurves, BushingMatrix, BushingMaxwell, Coupling, DistanceDamper,
-    DistanceSpring, DistanceStop, DistanceWinch, EndStop, HingeDamper, HingeDrive, HingeFriction,
-    HingeServo, HingeSpring, HingeStop, PlaneContact, SlideDrive, SlideFriction, SlideServo,
-    SoftDistanceStop, SoftEndStop, SoftHingeStop, SphereContact, WheelContact,
+    DistanceSpring, DistanceStop, DistanceWinch, EndStop, HingeDamper, HingeDrive,
+    HingeDriveFriction, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact,
+    SlideDrive, SlideDriveFriction, SlideFriction, SlideServo, SoftDistanceStop, SoftEndStop,
+    SoftHingeStop, SphereContact, WheelContact,
 };
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
@@ -41,6 +42,7 @@ type OfTurns<P> = Lawful<
         [HingeDamper<P>; 1],
         [HingeServo<P>; 1],
         [HingeDrive<P>; 1],
+        [HingeDriveFriction<P>; 1],
     ),
 >;
 
@@ -54,6 +56,7 @@ type OfTravels<P> = Lawful<
         [SlideFriction<P>; 1],
         [SlideServo<P>; 1],
         [SlideDrive<P>; 1],
+        [SlideDriveFriction<P>; 1],
     ),
 >;
 
