@@ -112,6 +112,11 @@ impl<P: Geometry> Interaction<P> for Bushing<P> {
     }
 
     #[inline(always)]
+    fn is_damped(&self) -> bool {
+        flat(self.dampings()) != [P::Real::ZERO; 6]
+    }
+
+    #[inline(always)]
     fn dampers(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: &mut impl FnMut(Damper<P>)) {
         self.deflected(seen).dampers(seen, self.dampings(), visit);
     }

@@ -111,6 +111,11 @@ impl<P: Geometry> Interaction<P> for BushingCurves<P> {
     }
 
     #[inline(always)]
+    fn is_damped(&self) -> bool {
+        flat(self.dampings()) != [P::Real::ZERO; 6]
+    }
+
+    #[inline(always)]
     fn dampers(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: &mut impl FnMut(Damper<P>)) {
         self.mount().deflected(seen).dampers(seen, self.dampings(), visit);
     }

@@ -97,8 +97,13 @@ impl<P: Geometry> Interaction<P> for BushingMatrix<P> {
     }
 
     #[inline(always)]
+    fn is_damped(&self) -> bool {
+        self.damping_time != P::Real::ZERO
+    }
+
+    #[inline(always)]
     fn dampers(&self, seen: &Seen<'_, P>, _: &NoStorage, visit: &mut impl FnMut(Damper<P>)) {
-        if self.damping_time == P::Real::ZERO {
+        if !Interaction::<P>::is_damped(self) {
             return (0..6).for_each(|_| visit(Damper::idle()));
         }
         let deflected = self.mount().deflected(seen);

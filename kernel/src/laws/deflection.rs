@@ -97,8 +97,13 @@ impl<P: Geometry> Mount<'_, P> {
         let y = z.cross(x);
         let vectors = [x, y, x.across(y)];
         let axes = [y.cross(vectors[2]), vectors[2].cross(x), z];
-        let (vectors, arms) = (vectors.map(|axis| seen.a.to_world(axis)), [arm, way, other]);
-        let ways = vectors.map(|along| Coordinate::carried(along.dot(way), along, arms));
+        // Not by `map`, which is not always inlined.
+        let [u, v, w] = vectors;
+        let vectors = [seen.a.to_world(u), seen.a.to_world(v), seen.a.to_world(w)];
+        let arms = [arm, way, other];
+        let carried = |along: P::Vector| Coordinate::carried(along.dot(way), along, arms);
+        let [u, v, w] = vectors;
+        let ways = [carried(u), carried(v), carried(w)];
         let turn = seen.a.turn_of(&seen.b).product(self.z.reference);
         let parts = axes.map(|axis| turn.about(axis));
         let [(w, _), ..] = parts;

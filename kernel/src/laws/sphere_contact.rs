@@ -155,6 +155,11 @@ impl<P: Geometry> Interaction<P> for SphereContact<P> {
     }
 
     #[inline(always)]
+    fn is_damped(&self) -> bool {
+        self.surface().is_damped()
+    }
+
+    #[inline(always)]
     fn dampers(
         &self,
         seen: &Seen<'_, P>,

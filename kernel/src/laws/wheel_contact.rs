@@ -244,6 +244,11 @@ impl<P: Geometry> Interaction<P> for WheelContact<P> {
     }
 
     #[inline(always)]
+    fn is_damped(&self) -> bool {
+        self.surface().is_damped()
+    }
+
+    #[inline(always)]
     fn dampers(
         &self,
         seen: &Seen<'_, P>,
