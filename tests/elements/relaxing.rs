@@ -5,9 +5,11 @@ use nalgebra::{Complex, Matrix3, Vector3};
 
 use crate::{instance, value};
 
-/// \[N/m\] the bushing, the branch beside it; \[s\] its relaxation time.
+/// \[N/m\] of the bushing along x.
 pub(crate) const STATIC: f64 = 4e3;
+/// \[N/m\] of the branch beside it.
 pub(crate) const BRANCH: f64 = 6e3;
+/// \[s\] relaxation time of the branch.
 pub(crate) const TIME: f64 = 0.02;
 
 /// A body of 1 kg and 0.1 kg·m² on a bushing with a branch; as stiff about z as along x.

@@ -3,7 +3,7 @@
 //! Slip s of the tread in the patch, `y = |(C_x·s_x, C_y·s_y)|/(3·μ·N)` ↦ force `μ·N·(3y − 3y² + y³)` along
 //! `(C_x·s_x, C_y·s_y)`, `μ·N` for y ≥ 1 (Fromm; Pacejka, Tire and Vehicle Dynamics, ch. 3). A spring of stiffness k has the
 //! same force: its deflection u grows by the slip of the wheel less `s` times the rolled distance (the single contact
-//! point with a carcass, ch. 7), so rolling relaxes it and standing holds it.
+//! point with a carcass, ch. 7), so rolling relaxes it and rest holds it.
 
 use crate::real::Real;
 use crate::space::Linear;

@@ -1,9 +1,9 @@
-//! A wheel on a plane: contact, a brush tyre, standing without creep.
+//! A wheel on a plane: contact, a brush tyre, parking without creep.
 //!
 //! The wheel is a disc of `radius − tread`, thickened by a sphere of the radius `tread`; its lowest point follows from
 //! the normal n and the axle a: `−r·(n − (n·a)·a)/|n − (n·a)·a| − tread·n`. Along the normal `N = k·x·(1 + a·ẋ)`, the law of
 //! [`super::EndStop`]. Along the plane the spring of [`super::PlaneContact`] is in series with a brush ([`super::brush`]):
-//! with the slip s over the rolling speed the force settles at the brush's, `μ·N·(3y − 3y² + y³)`, and a wheel that stands
+//! with the slip s over the rolling speed the force settles at the brush's, `μ·N·(3y − 3y² + y³)`, and a wheel at rest
 //! holds its deflection. Distances, not velocities, advance it, so nothing is divided by a speed.
 
 use crate::force_pair::ForcePair;
@@ -42,7 +42,7 @@ law! {
         slip_stiffness: Number("N"),
         /// Lateral force per slip, the tangent of the slip angle, at small slip; 0 for `slip_stiffness`.
         cornering_stiffness: Number("N") = 0.0,
-        /// Tangential stiffness over `stiffness` of a wheel that stands.
+        /// Tangential stiffness over `stiffness` of a wheel at rest.
         shear: Number = 0.8,
         /// Damping of the tangential deflection; the tangential force with damping stays within the friction limit.
         damping: Number("N·s/m") = 0.0,
