@@ -1,4 +1,4 @@
-//! Pairs of geoms that can touch; a scene supports spheres, capsules and boxes on planes.
+//! Pairs of geoms that can touch; a scene supports spheres, capsules and boxes on planes, and spheres on spheres.
 //!
 //! `geoms, <contact> => contacts, geoms with unsupported contacts`. Pairs are chosen as in MuJoCo: matching bits,
 //! bodies neither rigid with each other nor adjacent in the tree, not excluded; and the pairs of `<contact>`.
@@ -11,29 +11,38 @@ use crate::defaults::{Defaults, MAIN};
 use crate::element::Element;
 use crate::error::Fault;
 use crate::geom::{Form, Grip, Surface};
-use crate::mechanism::{Contact, Mechanism, rounded};
+use crate::interaction::Sides;
+use crate::mass::Solid;
+use crate::mechanism::{Contact, Interaction, Mechanism, rounded};
+use crate::notation::number;
 use crate::omission::{Kind, Omissions};
 use crate::settings::Settings;
 use crate::tree::{Tree, WORLD};
 
-/// A solid on a plane.
+/// A solid on a plane, or a sphere on a sphere.
 #[derive(Clone, Debug)]
 pub(crate) struct Touch {
-    /// Indices of the plane and the solid among the geoms.
-    plane: usize,
+    /// Index of the plane or the first sphere among the geoms.
+    base: usize,
+    /// Index of the solid or the second sphere.
     solid: usize,
     grip: Grip,
 }
 
 impl Touch {
-    /// Orders two geoms; `None` if they are not a plane and a supported solid, the solid belongs to the world, or both
-    /// are rigid with each other.
+    /// Orders two geoms; `None` if they are not a supported pair, the second belongs to the world, or both are rigid with
+    /// each other.
     fn of(tree: &Tree, [i, j]: [usize; 2], grip: Grip) -> Option<Self> {
-        let is_plane = |i: usize| tree.surfaces[i].form == Form::Plane;
-        let (plane, solid) = if is_plane(i) { (i, j) } else { (j, i) };
-        let meets = is_plane(plane) && !tree.surfaces[solid].form.spheres().is_empty();
-        let [ground, body] = [plane, solid].map(|i| lead(tree, tree.surfaces[i].body));
-        (meets && body != WORLD && body != ground).then_some(Self { plane, solid, grip })
+        let form = |i: usize| tree.surfaces[i].form;
+        let of = |i: usize| lead(tree, tree.surfaces[i].body);
+        let is_sphere = |i: usize| matches!(form(i), Form::Solid(Solid::Sphere(_)));
+        let spheres = is_sphere(i) && is_sphere(j);
+        // The same pair has the same order.
+        let (i, j) = if spheres { (i.min(j), i.max(j)) } else { (i, j) };
+        let is_first = if spheres { of(j) != WORLD } else { form(i) == Form::Plane };
+        let (base, solid) = if is_first { (i, j) } else { (j, i) };
+        let meets = spheres || form(base) == Form::Plane && !form(solid).spheres().is_empty();
+        (meets && of(solid) != WORLD && of(solid) != of(base)).then_some(Self { base, solid, grip })
     }
 }
 
@@ -98,7 +107,7 @@ pub(crate) fn find(
         meet && ra != rb && !next && !excluded.contains(&pair)
     };
     let paired: BTreeSet<[usize; 2]> =
-        touches.iter().map(|touch| [touch.plane, touch.solid]).collect();
+        touches.iter().map(|touch| [touch.base, touch.solid]).collect();
     let between = |i: usize, j: usize| {
         let grip = tree.surfaces[i].grip.and(tree.surfaces[j].grip);
         Touch::of(tree, [i, j], grip)
@@ -106,7 +115,7 @@ pub(crate) fn find(
     for i in 0..tree.surfaces.len() {
         let found = (0..i).filter(|j| touch(i, *j)).filter_map(|j| between(i, j));
         // An explicit pair overrides the bits.
-        touches.extend(found.filter(|touch| !paired.contains(&[touch.plane, touch.solid])));
+        touches.extend(found.filter(|touch| !paired.contains(&[touch.base, touch.solid])));
     }
     for (i, surface) in tree.surfaces.iter().enumerate() {
         let others = 0..tree.surfaces.len();
@@ -122,9 +131,9 @@ pub(crate) fn find(
 
 /// Adds the contacts of a mechanism.
 pub(crate) fn add(mechanism: &mut Mechanism<'_>, touches: &[Touch]) {
-    for Touch { plane, solid, grip } in touches {
+    for Touch { base, solid, grip } in touches {
         let tree = mechanism.tree;
-        let (plane, solid) = (&tree.surfaces[*plane], &tree.surfaces[*solid]);
+        let (plane, solid) = (&tree.surfaces[*base], &tree.surfaces[*solid]);
         let between = [plane.body, solid.body].map(|body| mechanism.side(body));
         let Some(part) = between[1] else { continue };
         let pose = |surface: &Surface| mechanism.pose.start[surface.body] * surface.pose;
@@ -134,7 +143,25 @@ pub(crate) fn add(mechanism: &mut Mechanism<'_>, touches: &[Touch]) {
         // Half of the critical damping for the body alone, as for joint friction.
         let shear = SHEAR * stiffness * mechanism.parts.parts[part].mass.mass;
         let damping = rounded(shear.sqrt());
+        let source = (format!("{} on {}", solid.words, plane.words), solid.place);
         let called = solid.name.clone().unwrap_or_else(|| mechanism.name(Some(part)).to_owned());
+        if let (Form::Solid(Solid::Sphere(first)), Form::Solid(Solid::Sphere(second))) =
+            (plane.form, solid.form)
+        {
+            let at = [ground.translation.vector, placed.translation.vector];
+            let sides = Sides { between, at };
+            let mut keys = vec![
+                sides.points(mechanism),
+                format!("first_radius = {}", number(first + grip.margin())),
+                format!("second_radius = {}", number(second)),
+            ];
+            keys.extend(mechanism.stop(None));
+            keys.extend(grip.keys(damping));
+            let name = mechanism.own_name(&format!("{called}-contact"));
+            let law = "sphere-contact";
+            mechanism.interactions.push(Interaction { name, law, between, keys, source });
+            continue;
+        }
         for (centre, radius) in solid.form.spheres() {
             let contact = Contact {
                 name: mechanism.own_name(&format!("{called}-contact")),
@@ -145,10 +172,8 @@ pub(crate) fn add(mechanism: &mut Mechanism<'_>, touches: &[Touch]) {
                 ],
                 normal,
                 radius: radius + grip.margin(),
-                friction: grip.friction(),
-                rolling: grip.rolling(),
-                damping,
-                source: (format!("{} on {}", solid.words, plane.words), solid.place),
+                grip: grip.keys(damping),
+                source: source.clone(),
             };
             mechanism.contacts.push(contact);
         }

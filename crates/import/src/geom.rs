@@ -5,6 +5,7 @@ use nalgebra::{Isometry3, Vector3};
 use crate::defaults::Attributes;
 use crate::error::Fault;
 use crate::mass::Solid;
+use crate::notation::number;
 use crate::place::Place;
 
 /// A geom that might touch another.
@@ -108,14 +109,17 @@ impl Grip {
         }
     }
 
-    /// \[1\] coefficient of friction.
-    pub(crate) fn friction(&self) -> f64 {
-        if self.dimension > 1.0 { self.friction[0] } else { 0.0 }
-    }
-
-    /// \[m\] moment of rolling resistance over the normal force.
-    pub(crate) fn rolling(&self) -> f64 {
-        if self.dimension > 4.0 { self.friction[1] } else { 0.0 }
+    /// The keys of a contact with this tangential damping \[N·s/m\], each `key = value`.
+    pub(crate) fn keys(&self, damping: f64) -> Vec<String> {
+        let [friction, rolling] = self.friction;
+        let mut keys = Vec::new();
+        if self.dimension > 1.0 && friction > 0.0 {
+            keys.push(format!("friction = {}\ndamping = {}", number(friction), number(damping)));
+        }
+        if self.dimension > 4.0 && rolling > 0.0 {
+            keys.push(format!("rolling = {}", number(rolling)));
+        }
+        keys
     }
 
     /// \[m\] contact margin.

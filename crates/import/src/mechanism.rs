@@ -208,12 +208,8 @@ pub(crate) struct Contact {
     pub(crate) normal: Vector3<f64>,
     /// \[m\]
     pub(crate) radius: f64,
-    /// \[1\]
-    pub(crate) friction: f64,
-    /// \[m\]
-    pub(crate) rolling: f64,
-    /// \[N·s/m\] tangential damping.
-    pub(crate) damping: f64,
+    /// Keys of friction and rolling resistance, each `key = value`.
+    pub(crate) grip: Vec<String>,
     /// Its origin in the file.
     pub(crate) source: Source,
 }

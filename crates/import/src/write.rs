@@ -317,13 +317,9 @@ fn contacts(out: &mut String, mechanism: &Mechanism<'_>, texts: &Texts) {
         let _ = writeln!(out, "normal = {}", vector(contact.normal, 1.0));
         let _ = writeln!(out, "radius = {}", number(contact.radius));
         let _ = writeln!(out, "{}", mechanism.stop(None).join("\n"));
-        if contact.friction > 0.0 {
-            let _ = writeln!(out, "friction = {}", number(contact.friction));
-            let _ = writeln!(out, "damping = {}", number(contact.damping));
-        }
-        if contact.rolling > 0.0 {
-            let _ = writeln!(out, "rolling = {}", number(contact.rolling));
-        }
+        contact.grip.iter().for_each(|key| {
+            let _ = writeln!(out, "{key}");
+        });
     }
 }
 

@@ -6,7 +6,7 @@
 
 `record` writes a table of 0.5 s: time, then x, y, z of each group of bodies that are rigid with each other, by
 the name of its first. `distance` prints how far a trace of host-sim is from MuJoCo's, body by body. What a scene
-has no counterpart for is off: contact but of spheres, capsules and boxes with planes, equalities of tendons, tendons that are not
+has no counterpart for is off: contact but of spheres, capsules and boxes with planes and of spheres with spheres, equalities of tendons, tendons that are not
 between two sites or of two or three joints, actuators that are no linear law or act at neither a joint nor a tendon. Controls are the keyframe's.
 """
 
@@ -28,12 +28,13 @@ def load(file, step):
             spec.delete(one)
     model = spec.compile()
     off = mujoco.mjtDisableBit
-    if not touches_planes_alone(model):
+    if not touches_known_alone(model):
         model.opt.disableflags |= off.mjDSBL_CONTACT
     # Contacts, limits and loops as stiff as the step bears: an error halves in a few steps, and the force is the
     # constraint's.
     stiff, whole = (4 * step, 1), (0.9999, 0.9999, 0.001, 0.5, 2)
     model.geom_solref[:], model.geom_solimp[:] = stiff, whole
+    model.pair_solref[:], model.pair_solimp[:] = stiff, whole
     model.jnt_solref[:], model.jnt_solimp[:] = stiff, whole
     model.dof_solref[:], model.dof_solimp[:] = stiff, whole
     model.eq_solref[:], model.eq_solimp[:] = stiff, whole
@@ -57,12 +58,17 @@ def load(file, step):
     return model
 
 
-def touches_planes_alone(model):
+def touches_known_alone(model):
     kinds, plane = model.geom_type, int(mujoco.mjtGeom.mjGEOM_PLANE)
+    sphere = int(mujoco.mjtGeom.mjGEOM_SPHERE)
     solids = [int(getattr(mujoco.mjtGeom, f"mjGEOM_{name}")) for name in ("SPHERE", "CAPSULE", "BOX")]
     meets = model.geom_contype[:, None] & model.geom_conaffinity[None, :]
     pairs = [(kinds[i], kinds[j]) for i, j in np.argwhere(meets)]
-    return bool(pairs) and all(plane in pair and any(one in solids for one in pair) for pair in pairs)
+    pairs += [(kinds[i], kinds[j]) for i, j in zip(model.pair_geom1, model.pair_geom2)]
+    known = [
+        tuple(pair) == (sphere, sphere) or plane in pair and any(one in solids for one in pair) for pair in pairs
+    ]
+    return bool(pairs) and all(known)
 
 
 def groups(model):
