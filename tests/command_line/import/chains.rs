@@ -84,6 +84,16 @@ fn solids_on_a_slope_move_as_in_mujoco() {
     }
 }
 
+/// A ball rolls down a ball, another slides, two meet: off by what contacts give way, and by what MuJoCo's are off.
+#[test]
+fn balls_on_balls_move_as_in_mujoco() {
+    let scene = loaded(&imported("balls.xml", &start(1e7)));
+    let laws = dbd_scene::interactions(&scene);
+    assert_eq!(laws.iter().filter(|one| one.law == "sphere-contact").count(), 3);
+    let found = distances(&scene, "tests/command_line/import/balls.csv");
+    assert!(worst(&found) < 5e-3, "{found:?}");
+}
+
 /// What comes to its limit is off by what stops give way, less with stiffer ones; what sticks, stays, slides and swings by
 /// what friction gives before it is whole, whatever the joints' stiffness.
 #[test]
