@@ -61,9 +61,9 @@ fn a_tyre_has_the_brush_force() {
     let slips = [0.002, 0.01, 0.03, 0.08, 0.125, 0.3];
     let pure = slips.iter().flat_map(|s| [[*s, 0.0], [-s, 0.0], [0.0, *s], [0.0, -s]]);
     for slip in pure.chain([[0.02, 0.03], [-0.05, 0.04], [0.01, -0.12]]) {
-        for (precision, near) in [("f64", 2e-5), ("f32", 2e-3)] {
+        for (precision, step, near) in [("f64", 5e-5, 2e-5), ("f32", 2e-4, 5e-3)] {
             for damping in ["", "damping = 500"] {
-                let mut run = instance(&rig(slip, damping), 5e-5, precision);
+                let mut run = instance(&rig(slip, damping), step, precision);
                 run.advance_to(0.8).unwrap();
                 let names = ["force_along", "force_across"];
                 for (name, exact) in names.into_iter().zip(brush(slip)) {
@@ -73,7 +73,7 @@ fn a_tyre_has_the_brush_force() {
                 }
                 for (name, exact) in ["slip_along", "slip_across"].into_iter().zip(slip) {
                     let found = value(&run, name);
-                    assert!((found - exact).abs() < 1e-4, "{precision} {name}: {found} {exact}");
+                    assert!((found - exact).abs() < 2e-4, "{precision} {name}: {found} {exact}");
                 }
             }
         }
@@ -164,7 +164,7 @@ fn a_parked_vehicle_does_not_creep() {
     }
 }
 
-/// Brakes of 100 N·m slow the car by 2·T/r over its mass with that of its wheels, and then it stands without rocking.
+/// Brakes of 100 N·m slow the car by 2·T/r over its mass with that of its wheels, and then it rests without rocking.
 #[test]
 fn a_braked_car_comes_to_rest() {
     let mut run = instance(&car(0.0, 5.0, 100.0), 2e-4, "f64");
@@ -286,7 +286,7 @@ fn perched(contact: &str) -> String {
     )
 }
 
-/// The cosine of the angle from the top where the ball leaves.
+/// The angle from the top \[rad\] where the ball leaves.
 fn leaves(contact: &str, step: f64) -> f64 {
     let mut run = instance(&perched(contact), step, "f64");
     let force = run.output("force").unwrap();
@@ -295,7 +295,7 @@ fn leaves(contact: &str, step: f64) -> f64 {
         run.advance(1).unwrap();
     }
     let [x, y] = ["ball.x", "ball.y"].map(|name| value(&run, name));
-    y / x.hypot(y)
+    x.atan2(y)
 }
 
 /// A body of 2 kg on three points that stand on a ball of 1 m, 0.3 rad beside its top: it stays.
@@ -483,18 +483,18 @@ pub fn cases() -> Vec<Case> {
         ),
         case(
             "sphere-contact",
-            "cosine where a ball slides off a ball",
-            "",
-            2.0 / 3.0 * 0.2_f64.cos(),
+            "angle from the top where a ball slides off a ball",
+            "rad",
+            (2.0 / 3.0 * 0.2_f64.cos()).acos(),
             8e-5,
             1e-3,
             Box::new(|h| leaves("", h)),
         ),
         case(
             "sphere-contact",
-            "cosine where it rolls off, μ 20",
-            "",
-            10.0 / 17.0 * 0.2_f64.cos(),
+            "the same where it rolls, μ 20",
+            "rad",
+            (10.0 / 17.0 * 0.2_f64.cos()).acos(),
             8e-5,
             2e-3,
             Box::new(|h| leaves("friction = 20\ndamping = 100", h)),

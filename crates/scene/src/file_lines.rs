@@ -1,7 +1,7 @@
 //! Line numbers of the tables of a scene.
 
 use crate::error::SceneError;
-use crate::interaction;
+use crate::free_length::winches;
 use crate::text::Table;
 
 /// Lines from 1, per kind in scene order.
@@ -24,7 +24,7 @@ impl FileLines {
     /// The lines of all tables of the scene.
     pub(crate) fn of(root: &Table<'_>) -> Result<Self, SceneError> {
         let tsdas = root.lines("tsda")?;
-        let winches = interaction::winches(root)?;
+        let winches = winches(root)?;
         Ok(Self {
             bodies: root.lines("body")?,
             joints: root.lines("joint")?,

@@ -10,6 +10,7 @@ use crate::assembly::NoAnchor;
 use crate::between::BodyName;
 use crate::drive::{self, Drive, INPUT as KEYS};
 use crate::error::SceneError;
+use crate::free_length;
 use crate::hinge::Hinge;
 use crate::interaction::{self, Driven};
 use crate::joints::JointPlace;
@@ -50,7 +51,7 @@ static TYPES: [InputType; 9] = [
     InputType { name: "joint_force", unit: "N", keys: &["target"], read: joint_force },
     InputType { name: "actuator", unit: "N", keys: &["target"], read: actuator },
     InputType { name: "anchor", unit: "m", keys: &["target", "axis"], read: anchor },
-    InputType { name: interaction::WINCH_TYPE, unit: "m", keys: interaction::WINCH, read: signal },
+    InputType { name: free_length::TYPE, unit: "m", keys: interaction::WINCH, read: signal },
     // Its unit is that of its mode.
     InputType { name: interaction::DRIVE_TYPE, unit: "", keys: interaction::DRIVE, read: signal },
     InputType { name: "signal", unit: "", keys: &[], read: signal },
@@ -84,7 +85,7 @@ pub(crate) fn read_all(
             false => kind.unit,
         };
         let mut drive = drive::read(&table, unit)?;
-        let is_length = kind.name == interaction::WINCH_TYPE;
+        let is_length = kind.name == free_length::TYPE;
         if is_length {
             let one = (number, &table);
             drive = interaction::drive_of_length(root, one, drive, known.assembly)?;

@@ -9,7 +9,7 @@
 //!
 //! - `precise`, `nearest`, `shortened`, [`fitting`], [`mod@file`]: double-double arithmetic, similar names, shortened
 //!   texts and numbers, files.
-//! - [`quantity`], [`mod@time`], `written`, `error`, `direction`, `text`, `names`, `target`, `file_lines`, `origin`,
+//! - [`quantity`], [`mod@time`], `written`, `error`, `direction`, `text`, `names`, `target`, `free_length`, `file_lines`, `origin`,
 //!   [`parameters`]: values with units; the tables of a file with their positions and errors; names and `[parameters]`.
 //! - `drive`, `hinge`, `pair`, `spring`, `solid`, `derived`, `columns`: the contents of tables, as data.
 //! - [`mod@laws`], `elimination`, `runtime`, [`default_step`]: laws between bodies, and a model whose sizes are known at
@@ -45,6 +45,7 @@ mod fault;
 pub mod file;
 mod file_lines;
 pub mod fitting;
+mod free_length;
 mod geometry;
 mod hinge;
 mod inertia;

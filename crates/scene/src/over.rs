@@ -8,6 +8,7 @@ use dbd_kernel::elements::source::SourceLaw;
 use crate::assembly::Assembly;
 use crate::drive::{Argument, Curve, curve};
 use crate::error::SceneError;
+use crate::free_length;
 use crate::input::InputInfo;
 use crate::interaction;
 use crate::nearest::nearest;
@@ -24,7 +25,7 @@ pub(crate) fn read_all(
     for (table, info) in root.list("input")?.iter().zip(inputs) {
         if table.has("over") {
             let (curve, law) = read(table, readouts, info.unit)?;
-            if info.kind == interaction::WINCH_TYPE {
+            if info.kind == free_length::TYPE {
                 interaction::check_lengths(table, "table", curve.least())?;
             }
             let added = assembly.add_source(info.index, law, &curve);

@@ -5,7 +5,7 @@ use dbd_kernel::Vec3;
 use crate::assembly::{Assembly, Points};
 use crate::between::Between;
 use crate::error::SceneError;
-use crate::interaction;
+use crate::free_length::winches;
 use crate::pair::Pair;
 use crate::points::PlaceOf;
 use crate::spring;
@@ -25,7 +25,7 @@ pub(crate) fn read_all(
     elements: &mut Elements,
 ) -> Result<Vec<String>, SceneError> {
     let mut labels = Vec::new();
-    let winches = interaction::winches(root)?;
+    let winches = winches(root)?;
     for (row, table) in root.list("tsda")?.into_iter().enumerate() {
         table.only(&[KEYS, spring::KEYS])?;
         if winches.contains_key(&row) {

@@ -33,6 +33,7 @@ mod distance_stop;
 mod distance_winch;
 mod end;
 mod end_stop;
+mod gear;
 mod hinge;
 mod hinge_damper;
 mod hinge_drive;
@@ -76,6 +77,7 @@ pub use distance_winch::DistanceWinch;
 pub(crate) use end::Body;
 pub use end::{End, Instant, Seen};
 pub use end_stop::{EndStop, SoftEndStop};
+pub use gear::Rotor;
 pub use hinge::{Hinge, Turns, Twisted};
 pub use hinge_damper::HingeDamper;
 pub use hinge_drive::{HingeDrive, HingeDriveFriction, TurnRotor};
@@ -95,7 +97,6 @@ pub use kind::{
 pub use ldl::Ldl;
 pub use list::Laws;
 pub use plane_contact::PlaneContact;
-pub use rotor::Rotor;
 pub use row::{Act, DamperPass, Row};
 #[doc(hidden)]
 pub use slice::{act, look, memory, shares_of, sweep};

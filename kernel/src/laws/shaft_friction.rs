@@ -6,8 +6,8 @@
 //! for a part: the impulse is that over the response of the rate to it. Viscous friction is part of the flow of the
 //! effort, see [`super::rotor`].
 
+use crate::laws::gear::{Gear, Rotor};
 use crate::laws::interaction::Wrong;
-use crate::laws::rotor::{Gear, Rotor};
 use crate::laws::servo::Effort;
 use crate::real::Real;
 use crate::schedule::Signal;

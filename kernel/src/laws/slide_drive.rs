@@ -4,8 +4,9 @@ use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
+use crate::laws::gear::{Gear, Rotor};
 use crate::laws::interaction::{Damper, Inner, Interaction, Quantity, Springs, Wrong};
-use crate::laws::rotor::{Gear, Geared, Rotor};
+use crate::laws::rotor::Geared;
 use crate::laws::servo::Effort;
 use crate::laws::shaft_friction::ShaftFriction;
 

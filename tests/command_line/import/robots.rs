@@ -122,7 +122,7 @@ fn what_is_no_tree_of_links_is_refused_where_it_stands() {
             "not a movable joint",
         ),
         (
-            "<link name='c'><collision><geometry><sphere radius='1'/></geometry></collision></link>",
+            "<link name='c'><collision><geometry><box size='1 1 1'/></geometry></collision></link>",
             Kind::Contact,
             "may touch",
         ),

@@ -15,8 +15,7 @@ pub(crate) use of_drives::{
 };
 pub(crate) use of_joints::{FRICTION, LIMITS, ROTOR};
 pub(crate) use of_winches::{
-    KEYS as WINCH, TYPE as WINCH_TYPE, check as check_lengths, drive_of as drive_of_length,
-    range_of as range_of_length, winches,
+    KEYS as WINCH, check as check_lengths, drive_of as drive_of_length, range_of as range_of_length,
 };
 
 use std::sync::Arc;
@@ -28,6 +27,7 @@ use crate::between::Between;
 use crate::drive;
 use crate::error::SceneError;
 use crate::file_lines::LawPlace;
+use crate::free_length::winches;
 use crate::interaction::field::{Of, Reading};
 use crate::interaction::of_couplings::Coupled;
 use crate::interaction::of_joints::{OF_JOINTS, OfJoint, keys_of, law_of, softened};
@@ -264,7 +264,7 @@ fn of_winches<'t>(
     assembly: &Assembly,
     rows: &mut Rows<'t>,
 ) -> Result<(), SceneError> {
-    let winches = of_winches::winches(root)?;
+    let winches = winches(root)?;
     of_winches::check_targets(root, &winches, elements)?;
     let Some(law) = rows.known.iter().position(|known| known.name == of_winches::LAW) else {
         return Ok(());

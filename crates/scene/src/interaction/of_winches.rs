@@ -8,6 +8,7 @@ use crate::assembly::Assembly;
 use crate::between::Between;
 use crate::drive::{self, Drive};
 use crate::error::SceneError;
+use crate::free_length::{is_of_type, winches};
 use crate::interaction::field::{Of, TwoPlaces};
 use crate::interaction::of_couplings::sides;
 use crate::interaction::of_drives::Constants;
@@ -17,42 +18,11 @@ use crate::target::{ElementName, Elements, Kinds};
 use crate::text::{Table, Text};
 use crate::tsda::FreeLength;
 
-/// The name of the type.
-pub(crate) const TYPE: &str = "free_length";
-
 /// Its law.
 pub(super) const LAW: &str = "distance-winch";
 
 /// The keys of its type.
 pub(crate) const KEYS: &[&str] = &["target"];
-
-fn is_of_type(input: &Table<'_>) -> bool {
-    input.value("type").is_some_and(|value| value.get().as_str() == Some(TYPE))
-}
-
-/// The rows of TSDAs with a free length that an input sets, each with the row of the input.
-pub(crate) fn winches(root: &Table<'_>) -> Result<BTreeMap<usize, usize>, SceneError> {
-    let inputs: Vec<_> = root.list("input")?.into_iter().enumerate().collect();
-    let mut winches = BTreeMap::new();
-    if !inputs.iter().any(|(_, input)| is_of_type(input)) {
-        return Ok(winches);
-    }
-    let tsdas = root.list("tsda")?;
-    for (number, input) in inputs.iter().filter(|(_, input)| is_of_type(input)) {
-        let Some(target) = input.value("target") else { continue };
-        let Some(name) = target.get().as_str() else { continue };
-        let named = |tsda: &Table<'_>| {
-            tsda.value("name").is_some_and(|value| value.get().as_str() == Some(name))
-        };
-        let Some(row) = tsdas.iter().position(named) else { continue };
-        if let Some(first) = winches.insert(row, *number) {
-            let other = inputs.get(first).map_or("another input", |(_, other)| other.label());
-            let problem = format!("names `{name}`, whose free length {other} sets");
-            return Err(target.refuse_with(&problem, "name each tsda in one input only"));
-        }
-    }
-    Ok(winches)
-}
 
 /// Refuses inputs that name no TSDA.
 pub(super) fn check_targets(

@@ -262,13 +262,13 @@ fn a_range_bounds_what_a_caller_sets() {
 fn friction_of_a_shaft_is_that_of_its_law_at_the_joint() {
     let keyed = scene(&drive(
         "target = \"pivot\"\nmode = \"torque\"\nrotor = \"20 kg*mm^2\"\nratio = -10\n\
-         gear = { stiffness = 500 }\nfriction = { coulomb = \"3 mN*m\", viscous = 2e-6 }\nvalue = 12",
+         gear = { stiffness = 500 }\nfriction = { coulomb = \"3 mN*m\", viscous = 1e-5 }\nvalue = 12",
     ))
     .unwrap();
     let listed = scene(
         "[[input]]\nname = \"u\"\ntype = \"signal\"\nvalue = 12\n[[interaction]]\n\
          law = \"hinge-drive-friction\"\nbetween = [\"slider\", \"lever\"]\naxis = [0, 0, 1]\ninput = \"u\"\n\
-         gain = 1\ninertia = 0.002\nstiffness = 500\ncoulomb = 0.03\nviscous = 0.0002",
+         gain = 1\ninertia = 0.002\nstiffness = 500\ncoulomb = 0.03\nviscous = 0.001",
     )
     .unwrap();
     let of = |scene: &Scene| {

@@ -101,7 +101,7 @@ fn a_free_length_starts_with_its_drive() {
         (
             "",
             "table = [[0.5, 1], [1, 2], [1.5, 1]]\ninterpolate = \"linear\"\nperiodic = true",
-            1.0,
+            2.0,
         ),
         (
             "",
