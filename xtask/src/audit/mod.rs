@@ -173,7 +173,7 @@ mod tests {
         assert!(missing(&findings).is_empty());
         let all = table(&findings);
         assert!(!all.contains("MISSING") && !all.contains("FAULTY"), "{all}");
-        let further = 1 + LAWFUL.len() * PRECISIONS.len();
+        let further = 1 + 2 * LAWFUL.len();
         assert!(all.contains(&format!("further models: {further}, clean: {further}")), "{all}");
         let faulty = Root::step("every-kind", "pefrl", "f32").symbol();
         findings.insert(faulty, vec!["panic: x".to_owned()]);
