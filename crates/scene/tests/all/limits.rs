@@ -303,7 +303,7 @@ fn soft_limits_are_laws_of_their_own() {
     };
     scene("", &stop("soft-end-stop", "soft = \"1 mm\"")).unwrap();
     for (text, parts) in [
-        (stop("end-stop", "soft = 1"), ["`soft`", "`law = \"soft-end-stop\"`"]),
+        (stop("end-stop", "soft = 1"), ["`soft`", "soft-end-stop"]),
         (stop("soft-end-stop", "soft = 0"), ["is not positive", "> 0"]),
         (stop("soft-end-stop", ""), ["has no `soft`", "m"]),
         (stop("soft-end-stop", "soft = \"1 deg\""), ["`soft`", "m"]),
