@@ -39,7 +39,7 @@ impl Ldl<f64> {
     pub fn of(matrix: &[[f64; 6]; 6]) -> Option<Self> {
         let (mut diagonal, mut below) = ([0.0; 6], [0.0; 15]);
         let mut places = below.iter_mut();
-        // What is left of the matrix without the columns before.
+        // The matrix less the parts of the columns before.
         let mut left = *matrix;
         for column in 0..6 {
             let (pivot, own) = (left[column][column], matrix[column][column]);

@@ -117,7 +117,7 @@ pub(super) fn check<R: Real>(
     Wrong::unless(dissipation >= R::ZERO, "dissipation", "is negative", "a number ≥ 0")
 }
 
-/// Refuses a soft start that is none.
+/// Refuses a soft start without a depth.
 pub(super) fn check_soft<R: Real>(soft: R) -> Result<(), Wrong> {
     Wrong::unless(soft > R::ZERO, "soft", "is not positive", "a depth > 0")
 }
