@@ -8,6 +8,7 @@ use crate::coordinate::{Coordinate, Law};
 use crate::interaction::{Sides, bushing};
 use crate::mechanism::{Interaction, Line, Mechanism, Rail, Torsion, rounded};
 use crate::notation::{text, vector};
+use crate::part::Side;
 use crate::place::Source;
 
 /// An input on a coordinate: its type, its keys, the sign of its value.
@@ -122,20 +123,19 @@ impl Coordinate {
             Self::Slide { .. } => ("actuator", vec![format!("target = {}", text(element))], 1.0),
             // A TSDA pulls its endpoints together.
             Self::Length { .. } => ("actuator", vec![format!("target = {}", text(element))], -1.0),
-            Self::Shift { at, axis, .. } | Self::Level { at, axis, .. } => {
-                let part = match self {
-                    Self::Level { between, .. } => between[1],
-                    Self::Shift { part, .. } => Some(*part),
-                    _ => None,
-                };
-                let point = mechanism.within(part, *at);
-                let keys = vec![
-                    format!("body = {}", text(mechanism.name(part))),
-                    format!("point = {}", crate::notation::vector(point, mechanism.size())),
-                    format!("axis = {}", vector(*axis)),
-                ];
-                ("force", keys, 1.0)
-            }
+            Self::Shift { part, at, axis, .. } => force(mechanism, Some(*part), *at, *axis),
+            Self::Level { between, at, axis, .. } => force(mechanism, between[1], *at, *axis),
         }
     }
+}
+
+/// A force on a point of a part along an axis of the world.
+fn force(mechanism: &Mechanism<'_>, part: Side, at: Vector3<f64>, axis: Vector3<f64>) -> Drive {
+    let point = mechanism.within(part, at);
+    let keys = vec![
+        format!("body = {}", text(mechanism.name(part))),
+        format!("point = {}", vector(point, mechanism.size())),
+        format!("axis = {}", vector(axis, 1.0)),
+    ];
+    ("force", keys, 1.0)
 }

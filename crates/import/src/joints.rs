@@ -138,8 +138,8 @@ fn of_stage(mechanism: &mut Mechanism<'_>, stage: &Stage, omissions: &mut Omissi
         unknown.clear();
         for (number, joint) in joints.iter().enumerate() {
             let known = (stage.joints[number], *joint, axes[number]);
-            ends(mechanism, between, known, at);
-            let calm = Joint { limited: false, ..(*joint).clone() };
+            let limited = joint.limited && !ends(mechanism, between, known, at);
+            let calm = Joint { limited, ..(*joint).clone() };
             lacks::of_coordinate(&calm, joint.name.as_ref().unwrap_or(&name), omissions);
         }
     }
@@ -235,13 +235,15 @@ fn level(
 }
 
 /// The limits of a coordinate that no joint of the scene has, as stops: `known` are its body, its joint and its axis.
+/// Returns whether it has them: an empty range would lock it, which stops cannot do.
 fn ends(
     mechanism: &mut Mechanism<'_>,
     between: [Side; 2],
     (body, joint, axis): (usize, &Joint, Vector3<f64>),
     at: Vector3<f64>,
-) {
-    let Some([from, to]) = joint.range.filter(|_| joint.limited) else { return };
+) -> bool {
+    let range = joint.range.filter(|[from, to]| joint.limited && from < to);
+    let Some([from, to]) = range else { return false };
     let q = mechanism.pose.coordinates[body];
     let (words, place) = joint.source();
     let called = joint.name.clone().unwrap_or_else(|| mechanism.name(between[1]).to_owned());
@@ -258,13 +260,14 @@ fn ends(
             format!("from = {}\nto = {}", number(from - q), number(to - q)),
         ];
         add(mechanism, "range", "hinge-stop", keys, Some(span));
-        return;
+        return true;
     }
     for (end, place, normal) in [("from", from - q, axis), ("to", to - q, -axis)] {
         let sides = Sides { between, at: [at + axis * place, at] };
         let keys = vec![sides.points(mechanism), format!("normal = {}", vector(normal, 1.0))];
         add(mechanism, end, "end-stop", keys, None);
     }
+    true
 }
 
 /// Limits, friction and rotor of a joint as keys of a link; `None` if the link does not have that coordinate. `q` is

@@ -81,8 +81,8 @@ impl<V: Linear> Words for Rolled<V> {
 /// side has a lowest point. At a lean φ this changes the height by `r·FLAT·sin²φ/(2·cos φ)`.
 const FLAT: f64 = 1.0 / 65536.0;
 
-/// \[1\] the motion of the point of contact over the radius at which it is stored anew: beyond the rounding of a wheel
-/// at rest, which therefore does not creep.
+/// \[1\] threshold, over the radius: a smaller motion of the point of contact on the wheel is the rounding of a wheel at
+/// rest and is not stored, so that the wheel does not creep.
 const STANDING: f64 = 1.0 / 65536.0;
 
 /// A wheel at a pose.

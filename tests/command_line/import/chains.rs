@@ -195,6 +195,16 @@ fn joints_that_cannot_be_said_exactly_are_refused() {
         assert_eq!(scene.body_names, ["a", "b"]);
         assert_eq!(scene.joints.len(), 2);
     }
+    // Stops cannot lock a coordinate.
+    let locked = X.replace("/>", " range='0.1 0.1' limited='true'/>");
+    let refused = import_text(
+        &body(&[&locked, Y].concat(), false),
+        "t.xml",
+        "".as_ref(),
+        &Options::default(),
+    );
+    let Err(ImportError::Omitted { omissions, .. }) = refused else { panic!("{refused:?}") };
+    assert_eq!(omissions.iter().map(|one| one.kind).collect::<Vec<_>>(), [Kind::Limit]);
     let spatial = body(&[X, SKEW, C].concat(), false);
     let refused = import_text(&spatial, "test.xml", "".as_ref(), &Options::default());
     let Err(ImportError::Omitted { omissions, .. }) = refused else { panic!("{refused:?}") };
