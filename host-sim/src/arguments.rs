@@ -13,6 +13,44 @@ pub fn names<N: Named + Send + Sync>() -> impl TypedValueParser<Value = N> {
     PossibleValuesParser::new(values).try_map(|name| N::of_name(&name).ok_or("unknown name"))
 }
 
+/// Selects all kinds.
+const ALL: &str = "all";
+
+/// A kind of element that a conversion may leave out, or all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ignored<K> {
+    /// All kinds.
+    All,
+    /// One kind.
+    One(K),
+}
+
+impl<K: Copy> Ignored<K> {
+    /// The chosen kinds among all.
+    #[must_use]
+    pub fn all_of(chosen: &[Self], all: &[K]) -> Vec<K> {
+        let kinds = chosen.iter().flat_map(|ignored| match ignored {
+            Self::One(kind) => std::slice::from_ref(kind),
+            Self::All => all,
+        });
+        kinds.copied().collect()
+    }
+}
+
+/// Parses a kind by its name, or `all`; `words` gives the name and the description of a kind.
+pub fn ignorable<K: Copy + Send + Sync + 'static>(
+    all: &'static [K],
+    words: fn(K) -> [&'static str; 2],
+) -> impl TypedValueParser<Value = Ignored<K>> {
+    let kinds = all.iter().map(|kind| words(*kind));
+    let kinds = kinds.chain([[ALL, "all kinds"]]);
+    let values = kinds.map(|[name, about]| PossibleValue::new(name).help(about));
+    PossibleValuesParser::new(values).map(move |name| {
+        let kind = all.iter().find(|kind| words(**kind)[0] == name);
+        kind.map_or(Ignored::All, |kind| Ignored::One(*kind))
+    })
+}
+
 /// The argument that names a scene.
 #[derive(Clone, Debug, Args)]
 pub struct SceneArgument {

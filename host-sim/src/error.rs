@@ -24,6 +24,7 @@ use crate::commands::new::NewError;
 use crate::commands::picture::PictureError;
 use crate::commands::play::PlayError;
 use crate::commands::relax::RelaxError;
+use crate::commands::replace::ReplaceError;
 use crate::commands::report::ReportError;
 use crate::commands::reproduce::ReproduceError;
 use crate::commands::run::RunError;
@@ -137,6 +138,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Manual(#[from] ManualError),
+    /// A file is not replaced.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    File(#[from] ReplaceError),
     /// The results cannot be written to standard output.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -149,16 +154,18 @@ impl Error {
     pub fn exit(&self) -> Exit {
         match self {
             Self::Load(_) | Self::Method(_) | Self::Plant(_) => Exit::Refused,
-            Self::Export(ExportError::Write { .. })
+            Self::File(ReplaceError::Write { .. })
             | Self::Fmu(FmuError::Write { .. } | FmuError::Archive(ArchiveError::Archive(_)))
-            | Self::Import(ImportError::Write { .. })
             | Self::New(NewError::Write { .. })
             | Self::Picture(PictureError::Write { .. }) => Exit::Failed,
-            Self::Export(_) | Self::Fmu(_) | Self::Import(_) | Self::New(_) | Self::Picture(_) => {
-                Exit::Refused
-            }
+            Self::Export(_)
+            | Self::File(_)
+            | Self::Fmu(_)
+            | Self::Import(_)
+            | Self::New(_)
+            | Self::Picture(_) => Exit::Refused,
             Self::Linearise(
-                LineariseError::Write { .. }
+                LineariseError::File(ReplaceError::Write { .. })
                 | LineariseError::Instance(InstanceError::Failed { .. }),
             ) => Exit::Failed,
             Self::Linearise(_) => Exit::Refused,

@@ -138,7 +138,9 @@ fn a_project_for_c_has_the_names_and_the_bits_of_its_scene() {
     let bits = format!("{} {}", run["steps"], run["state_hash"].as_str().unwrap());
     assert_eq!(last, bits, "{}", done.out);
     let double = folder.path("double");
-    call(&["new", "c", double.to_str().unwrap(), "--precision", "f64"]);
+    let out = double.to_str().unwrap();
+    let done = call(&["export", "cart-pendulum", "--c", "--precision", "f64", "--out", out]);
+    assert_eq!((done.exit, done.err.as_str()), (Exit::Done, ""));
     let header = fs::read_to_string(double.join("include/double.h")).unwrap();
     assert!(header.contains("typedef double double_number;"), "{header}");
     // A scene without inputs and read-outs.

@@ -1,4 +1,4 @@
-//! Import of MuJoCo's MJCF and ROS's URDF as scenes.
+//! Import of MuJoCo's MJCF and ROS's URDF as scenes, and export of scenes as URDF.
 //!
 //! `FILE.xml => bodies, joints, springs of a mechanism => TOML with the origin of each part`. Items without a
 //! counterpart become an [`Omission`] with line and magnitude, and are refused unless their [`Kind`] is ignored. The
@@ -38,8 +38,10 @@
 //! - `write`: the scene's text.
 //! - `assembled`: springs of a mechanism whose loops are open at the file's pose.
 //! - `model`: the whole conversion, from a file's elements to the scene.
+//! - [`export`]: a scene as URDF.
 
 pub mod error;
+pub mod export;
 pub mod omission;
 pub mod options;
 pub mod place;

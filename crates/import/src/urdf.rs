@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use dbd_scene::nearest;
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::defaults::Attributes;
 use crate::element::{Attribute, Element};
@@ -105,7 +105,7 @@ pub(crate) fn mujoco(robot: &Element, omissions: &mut Omissions) -> Result<Eleme
             continue;
         }
         let ground = *name == "world";
-        let body = tree.body(link, None, (0, &mut count))?;
+        let body = tree.body(link, &[], (0, &mut count))?;
         if ground {
             world.children.extend(body.children.into_iter().filter(|c| c.name != "inertial"));
         } else {
@@ -214,11 +214,10 @@ impl<'e> Joint<'e> {
             [("-x", "slide", first), ("-y", "slide", normal.cross(&first)), ("", "hinge", normal)];
         let one = |(end, kind, axis): (&str, &str, Vector3<f64>)| {
             let mut joint = empty("joint", self.element.place);
-            let [x, y, z] = axis.into();
             let values = [
                 ("name", format!("{}{end}", self.name.value)),
                 ("type", kind.to_owned()),
-                ("axis", format!("{x:?} {y:?} {z:?}")),
+                ("axis", three(axis)),
             ];
             let values = values.iter().map(|(name, value)| attribute(name, value, self.name.place));
             joint.attributes.extend(values);
@@ -281,11 +280,11 @@ struct Robot<'e> {
 }
 
 impl Robot<'_> {
-    /// A link with its descendants; `count` links so far.
+    /// A link with its descendants, held by joints in this order; `count` links so far.
     fn body(
         &self,
         link: &Element,
-        joint: Option<&Joint<'_>>,
+        joints: &[&Joint<'_>],
         (depth, count): (usize, &mut usize),
     ) -> Result<Element, Fault> {
         if depth > DEPTH {
@@ -297,9 +296,13 @@ impl Robot<'_> {
         let name = link.text("name").unwrap_or_default();
         let place = link.attribute("name").map_or(link.place, |name| name.place);
         body.attributes.push(attribute("name", name, place));
-        if let Some(joint) = joint {
-            body.attributes.extend(pose(joint.element)?);
-            body.children.extend(joint.freedoms()?);
+        match joints {
+            [] => {}
+            [joint] => {
+                body.attributes.extend(pose(joint.element)?);
+                body.children.extend(joint.freedoms()?);
+            }
+            _ => several(joints, &mut body)?,
         }
         body.children.extend(inertial(link)?);
         for (section, touches) in [("visual", false), ("collision", true)] {
@@ -308,12 +311,74 @@ impl Robot<'_> {
             }
         }
         for joint in self.on.get(name).into_iter().flatten() {
-            if let Some(child) = self.links.get(joint.child.value.as_str()) {
-                body.children.push(self.body(child, Some(joint), (depth + 1, count))?);
+            let mut joints = vec![*joint];
+            while let Some(next) = self.beyond(joints[joints.len() - 1], *count + joints.len()) {
+                joints.push(next);
+            }
+            *count += joints.len() - 1;
+            let last = joints[joints.len() - 1];
+            if let Some(child) = self.links.get(last.child.value.as_str()) {
+                body.children.push(self.body(child, &joints, (depth + 1, count))?);
             }
         }
         Ok(body)
     }
+
+    /// The joint beyond a link without mass and shapes between two joints, which together are several joints of one
+    /// body; `count` links so far, fewer than all unless links form a cycle.
+    fn beyond(&self, joint: &Joint<'_>, count: usize) -> Option<&Joint<'_>> {
+        let name = joint.child.value.as_str();
+        let link = self.links.get(name).filter(|_| count < self.links.len() && joint.moves())?;
+        let is_bare = ["inertial", "visual", "collision"]
+            .iter()
+            .all(|part| link.sections(part).next().is_none());
+        match self.on.get(name).map(Vec::as_slice) {
+            Some([next]) if is_bare && next.moves() => Some(next),
+            _ => None,
+        }
+    }
+}
+
+/// Several joints of one body, given in its frame.
+fn several(joints: &[&Joint<'_>], body: &mut Element) -> Result<(), Fault> {
+    let mut frame = Isometry3::identity();
+    let mut made = Vec::new();
+    // The frame of the last joint is the body's.
+    for joint in joints.iter().rev() {
+        let Some(mut freedom) = joint.freedom()? else { continue };
+        let given = joint.element.sections("axis").next();
+        let axis = given.map(|axis| Attributes::own(axis).vector("xyz")).transpose()?.flatten();
+        let axis = frame.rotation.inverse() * axis.unwrap_or_else(Vector3::x);
+        let at = frame.inverse().translation.vector;
+        let place = joint.element.place;
+        freedom.attributes.retain(|attribute| attribute.name != "axis");
+        freedom.attributes.push(attribute("axis", &three(axis), place));
+        freedom.attributes.push(attribute("pos", &three(at), place));
+        made.push(freedom);
+        frame = isometry(joint.element)? * frame;
+    }
+    let place = joints.first().map_or(body.place, |joint| joint.element.place);
+    let [x, y, z, w] = frame.rotation.coords.into();
+    body.attributes.push(attribute("pos", &three(frame.translation.vector), place));
+    body.attributes.push(attribute("quat", &format!("{w:?} {x:?} {y:?} {z:?}"), place));
+    body.children.extend(made.into_iter().rev());
+    Ok(())
+}
+
+/// Three numbers of an attribute.
+fn three(v: Vector3<f64>) -> String {
+    format!("{:?} {:?} {:?}", v.x, v.y, v.z)
+}
+
+/// The frame given by an `<origin>`.
+fn isometry(element: &Element) -> Result<Isometry3<f64>, Fault> {
+    let Some(origin) = element.sections("origin").next().map(Attributes::own) else {
+        return Ok(Isometry3::identity());
+    };
+    let at = origin.vector("xyz")?.unwrap_or_default();
+    let rpy = origin.vector("rpy")?.unwrap_or_default();
+    let turn = UnitQuaternion::from_euler_angles(rpy.x, rpy.y, rpy.z);
+    Ok(Isometry3::from_parts(Translation3::from(at), turn))
 }
 
 /// `pos` and `euler` of an `<origin>`.

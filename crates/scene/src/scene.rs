@@ -128,6 +128,20 @@ impl Scene {
         }
     }
 
+    /// The states at which joints are assembled: those at t = 0 without `start` and `settle`, where joint coordinates
+    /// are 0.
+    #[must_use]
+    pub fn assembled_states(&self) -> &[BodyState<F64>] {
+        &self.assembled_states
+    }
+
+    /// Table and number of the table of the scene file that an interaction belongs to, by its row in the model:
+    /// `("joint", 2)` for limits of the third joint, `("interaction", 0)` for the first interaction.
+    #[must_use]
+    pub fn table_of_interaction(&self, row: usize) -> Option<(&'static str, usize)> {
+        self.law_places.get(row).copied()
+    }
+
     /// Detaches every input from its table, so that the caller sets it; see [`SceneModel::release_all`].
     pub fn release_all(&mut self) {
         self.model.release_all();
@@ -198,6 +212,12 @@ impl Scene {
     #[must_use]
     pub fn line_of_joint(&self, row: usize) -> Option<usize> {
         self.file_lines.joints.get(row).copied()
+    }
+
+    /// The line of the scene file, from 1, on which an input begins.
+    #[must_use]
+    pub fn line_of_input(&self, row: usize) -> Option<usize> {
+        self.file_lines.inputs.get(row).copied()
     }
 
     /// The line of the scene file, from 1, on which an interaction begins, by its row in the model.

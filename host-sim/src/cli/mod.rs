@@ -23,6 +23,7 @@ use std::path::PathBuf;
 
 use clap::{ColorChoice, CommandFactory as _, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
+use dbd_import::export::{Exported, table};
 use dbd_import::omission;
 
 use crate::cli::advise::{AdviseArguments, advise_scene};
@@ -46,7 +47,9 @@ use crate::commands::import::{self, Import, ImportArguments};
 use crate::commands::linearise::LineariseArguments;
 use crate::commands::list::list;
 use crate::commands::manual;
-use crate::commands::new::{NewCommand, NewError, SceneArguments, c, firmware, laws, scene};
+use crate::commands::new::{
+    NewCommand, NewError, PlantArguments, SceneArguments, c, firmware, laws, scene,
+};
 use crate::commands::report::{ReportArguments, report};
 use crate::commands::schema;
 use crate::commands::sweep::{SweepArguments, sweep};
@@ -284,9 +287,24 @@ fn export_scene(
     arguments: &ExportArguments,
     console: &mut Console<'_>,
 ) -> Result<Exit, Error> {
-    let text = export::export(&load(catalogue, &arguments.scene)?.scene, &arguments.options)?;
-    match &arguments.out {
-        Some(file) => export::write(file, &text)?,
+    let ExportArguments { scene, format, options, out } = arguments;
+    if let (true, Some(folder)) = (format.c, out) {
+        let plant = PlantArguments::of(folder, &scene.scene, options);
+        return new_plant(catalogue, &scene.scene, |found| c(&plant, found), console);
+    }
+    let scene = load(catalogue, scene)?.scene;
+    let text = if format.urdf {
+        let Exported { text, left_out, notes } = export::urdf(&scene, format)?;
+        if !left_out.is_empty() {
+            console.note(&format!("left out:\n{}", table(&left_out).trim_end()));
+        }
+        notes.iter().for_each(|note| console.note(note));
+        text
+    } else {
+        export::export(&scene, options)?
+    };
+    match out {
+        Some(file) => export::write(file, &text, format)?,
         None => console.print(&text)?,
     }
     Ok(Exit::Done)

@@ -1,27 +1,28 @@
-//! `host-sim export`: Rust source of a scene's const model and of its plant.
+//! `host-sim export`: a scene as Rust source of its const model and plant, or as URDF.
 //!
 //! `(scene, precisions, scheme, step) => source`, the one that a build script writes
 //! ([`dbd_scene::Build`]). The constant of the step is the one asked for, else the scene's, else the
 //! default one before it is shortened to fit.
 
 use std::fmt;
-use std::io::{self, BufRead as _};
 use std::path::{Path, PathBuf};
 
+use clap::builder::TypedValueParser;
 use clap::{Args, ValueHint};
+use dbd_import::export::{Exported, Lack};
 use dbd_plant::plan::step_of;
 use dbd_plant::plant::check;
 use dbd_plant::time::Time;
 use dbd_plant::{
     DampingName, Frequencies, Method, Named as _, PlanError, PlantError, PrecisionName, SchemeName,
 };
-use dbd_report::output::file::write_at;
 use dbd_scene::Scene;
 use dbd_scene::export::{self as source, ExportScheme, HEAD, SchemeError};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::arguments::{SceneArgument, names};
+use crate::arguments::{Ignored, SceneArgument, ignorable, names};
+use crate::commands::replace::{ReplaceError, replace};
 
 /// The exported scene and the destination.
 #[derive(Clone, Debug, Args)]
@@ -29,12 +30,33 @@ pub struct ExportArguments {
     /// The scene
     #[command(flatten)]
     pub scene: SceneArgument,
+    /// The format [default: Rust source]
+    #[command(flatten)]
+    pub format: FormatOptions,
     /// The exported parts
     #[command(flatten)]
     pub options: ExportOptions,
-    /// Write to this file, atomically, instead of to standard output
+    /// Write to this file, atomically, instead of to standard output; with --c to this new folder
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub out: Option<PathBuf>,
+}
+
+/// Formats other than Rust source.
+#[derive(Clone, Debug, Default, Args)]
+pub struct FormatOptions {
+    /// Write URDF, the robots of ROS: a tree of ideal joints
+    #[arg(long, conflicts_with_all = ["c", "precision", "scheme", "newton", "rho", "damping", "step"])]
+    pub urdf: bool,
+    /// Omit elements of this kind that a URDF cannot hold; may be repeated
+    #[arg(long, value_name = "KIND", requires = "urdf", value_parser = lacks())]
+    pub ignore: Vec<Ignored<Lack>>,
+    /// Write a project with a static library and its header for C, as new c does
+    #[arg(long, requires = "out", conflicts_with_all = ["newton", "rho", "set", "planar", "settle"])]
+    pub c: bool,
+}
+
+fn lacks() -> impl TypedValueParser<Value = Ignored<Lack>> {
+    ignorable(Lack::ALL, |kind| [kind.name(), kind.summary()])
 }
 
 /// What is exported of a scene.
@@ -73,20 +95,9 @@ pub enum ExportError {
     /// No step fits the scene.
     #[error(transparent)]
     Step(#[from] PlanError),
-    /// The file has other contents.
-    #[error("{} was not written by host-sim export", file.display())]
-    Taken {
-        /// The file.
-        file: PathBuf,
-    },
-    /// The file cannot be written.
-    #[error("cannot write {}: {reason}", file.display())]
-    Write {
-        /// The file.
-        file: PathBuf,
-        /// The reason; part of the message and therefore not a source, which would repeat it.
-        reason: io::Error,
-    },
+    /// A URDF cannot hold the scene.
+    #[error(transparent)]
+    Urdf(#[from] dbd_import::export::ExportError),
 }
 
 impl Diagnostic for ExportError {
@@ -95,10 +106,7 @@ impl Diagnostic for ExportError {
             Self::Scheme(error) => Some(Box::new(error.help())),
             Self::Plant(error) => error.help(),
             Self::Step(error) => error.help(),
-            Self::Taken { .. } => {
-                Some(Box::new("choose another file with --out, or remove that one"))
-            }
-            Self::Write { .. } => None,
+            Self::Urdf(error) => error.help(),
         }
     }
 }
@@ -134,25 +142,21 @@ pub fn export(scene: &Scene, options: &ExportOptions) -> Result<String, ExportEr
     Ok(source::source(scene, &source::Export { precisions, scheme, step }))
 }
 
-/// Writes exported source to a file, in place of an older one.
+/// A scene as URDF, with what it leaves out.
 ///
 /// # Errors
-/// [`ExportError::Taken`] if the file was not exported by this program, [`ExportError::Write`].
-pub fn write(file: &Path, text: &str) -> Result<(), ExportError> {
-    // A device, which seems empty, is not replaced either.
-    if file.exists() && !(file.is_file() && is_exported(file)) {
-        return Err(ExportError::Taken { file: file.to_owned() });
-    }
-    write_at(file, text).map_err(|reason| ExportError::Write { file: file.to_owned(), reason })
+/// [`ExportError::Urdf`] where an element has no counterpart and its kind is not ignored.
+pub fn urdf(scene: &Scene, options: &FormatOptions) -> Result<Exported, ExportError> {
+    Ok(dbd_import::export::urdf(scene, &Ignored::all_of(&options.ignore, Lack::ALL))?)
 }
 
-/// Whether a file begins as exported source does; an empty file may be replaced.
-fn is_exported(file: &Path) -> bool {
-    let Ok(content) = std::fs::File::open(file) else { return false };
-    let mut line = Vec::new();
-    // Long enough for the header with any name.
-    let read = io::Read::take(io::BufReader::new(content), 4096).read_until(b'\n', &mut line);
-    read.is_ok_and(|count| count == 0 || line.starts_with(HEAD.as_bytes()))
+/// Writes exported text to a file, in place of an older one of the same format.
+///
+/// # Errors
+/// [`ReplaceError`].
+pub fn write(file: &Path, text: &str, options: &FormatOptions) -> Result<(), ReplaceError> {
+    let head = if options.urdf { dbd_import::export::HEAD } else { HEAD };
+    replace(file, text, (head, "export"))
 }
 
 /// Precisions that const models are written in.

@@ -4,20 +4,18 @@
 //! what is written can be run.
 
 use std::fmt;
-use std::io::{self, BufRead as _};
 use std::path::{Path, PathBuf};
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum, ValueHint};
 use dbd_import::{Imported, Kind, Options, Weld, omission};
 use dbd_plant::time::Time;
-use dbd_report::output::file::write_at;
 use dbd_scene::{Assembled, OpenJoint, Scene, SceneError};
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use thiserror::Error;
 
-/// Selects all kinds.
-const ALL: &str = "all";
+use crate::arguments::{Ignored, ignorable};
+use crate::commands::replace::{ReplaceError, replace};
 
 /// The imported file, the settings and the destination.
 #[derive(Clone, Debug, Args)]
@@ -30,7 +28,7 @@ pub struct ImportArguments {
     pub out: Option<PathBuf>,
     /// Omit elements of this kind that have no counterpart; may be repeated
     #[arg(long, value_name = "KIND", value_parser = kinds())]
-    pub ignore: Vec<Ignored>,
+    pub ignore: Vec<Ignored<Kind>>,
     /// List elements without a counterpart, with line and size, and write nothing
     #[arg(long, conflicts_with = "out")]
     pub list: bool,
@@ -63,15 +61,6 @@ pub struct ImportArguments {
     pub name: Option<String>,
 }
 
-/// One kind, or all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ignored {
-    /// All kinds.
-    All,
-    /// One kind.
-    One(Kind),
-}
-
 /// Treatment of a body without a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum WeldArgument {
@@ -81,17 +70,8 @@ pub enum WeldArgument {
     Fixed,
 }
 
-fn kinds() -> impl TypedValueParser<Value = Ignored> {
-    let kinds = Kind::ALL.iter().map(|kind| PossibleValue::new(kind.name()).help(kind.summary()));
-    let all = std::iter::once(PossibleValue::new(ALL).help("all kinds"));
-    PossibleValuesParser::new(kinds.chain(all)).try_map(|name| {
-        let kind = Kind::ALL.iter().find(|kind| kind.name() == name);
-        match (kind, name.as_str()) {
-            (Some(kind), _) => Ok(Ignored::One(*kind)),
-            (None, ALL) => Ok(Ignored::All),
-            (None, _) => Err("unknown kind"),
-        }
-    })
+fn kinds() -> impl TypedValueParser<Value = Ignored<Kind>> {
+    ignorable(Kind::ALL, |kind| [kind.name(), kind.summary()])
 }
 
 fn number(text: &str) -> Result<f64, String> {
@@ -138,20 +118,6 @@ pub enum ImportError {
         /// \[m\] by how much, an angle times the length of `[assemble]` included.
         gap: f64,
     },
-    /// The output file has other contents.
-    #[error("{} was not written by host-sim import", file.display())]
-    Taken {
-        /// The file.
-        file: PathBuf,
-    },
-    /// The file cannot be written.
-    #[error("cannot write {}: {reason}", file.display())]
-    Write {
-        /// The file.
-        file: PathBuf,
-        /// The reason; part of the message and therefore not a source, which would repeat it.
-        reason: io::Error,
-    },
 }
 
 impl Diagnostic for ImportError {
@@ -159,10 +125,6 @@ impl Diagnostic for ImportError {
         match self {
             Self::Import(error) => Diagnostic::help(error),
             Self::Scene { error, .. } => Diagnostic::help(error),
-            Self::Taken { .. } => {
-                Some(Box::new("choose another file with --out, or remove that one"))
-            }
-            Self::Write { .. } => None,
             Self::Open { gap, .. } => Some(Box::new(format!(
                 "correct the points or poses in the written scene, or allow the gap with \
                  `--tolerance {:.0e}`, or in the scene with `tolerance` in [assemble]",
@@ -190,10 +152,6 @@ impl Diagnostic for ImportError {
 
 impl ImportArguments {
     fn options(&self) -> Options {
-        let ignored = self.ignore.iter().flat_map(|ignored| match ignored {
-            Ignored::One(kind) => vec![*kind],
-            Ignored::All => Kind::ALL.to_vec(),
-        });
         Options {
             name: self.name.clone(),
             stiffness: self.stiffness,
@@ -207,7 +165,7 @@ impl ImportArguments {
                 WeldArgument::Fixed => Weld::Fixed,
             },
             keyframe: self.keyframe.clone(),
-            ignored: ignored.collect(),
+            ignored: Ignored::all_of(&self.ignore, Kind::ALL),
         }
     }
 }
@@ -285,24 +243,11 @@ pub fn list(arguments: &ImportArguments) -> Result<String, ImportError> {
     Ok(omission::table(&imported.omitted))
 }
 
-/// Writes an imported scene to a file, in place of an older one.
+/// Writes an imported scene to a file, in place of an older one of the same source.
 ///
 /// # Errors
-/// [`ImportError::Taken`] if the file was not imported by this program, [`ImportError::Write`].
-pub fn write(file: &Path, text: &str) -> Result<(), ImportError> {
-    // A device, which seems empty, is not replaced either.
-    if file.exists() && !(file.is_file() && is_imported(file, text)) {
-        return Err(ImportError::Taken { file: file.to_owned() });
-    }
-    write_at(file, text).map_err(|reason| ImportError::Write { file: file.to_owned(), reason })
-}
-
-/// Whether a file begins as an import of the same file does; an empty file may be replaced.
-fn is_imported(file: &Path, text: &str) -> bool {
-    let Ok(content) = std::fs::File::open(file) else { return false };
-    let mut line = Vec::new();
-    // Long enough for the header with any name.
-    let read = io::Read::take(io::BufReader::new(content), 4096).read_until(b'\n', &mut line);
+/// [`ReplaceError`].
+pub fn write(file: &Path, text: &str) -> Result<(), ReplaceError> {
     let head = text.split_inclusive('\n').next().unwrap_or_default();
-    read.is_ok_and(|count| count == 0 || line == head.as_bytes())
+    replace(file, text, (head, "import"))
 }

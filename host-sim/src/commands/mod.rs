@@ -17,7 +17,8 @@
 //! - [`report`]: a recorded run as a page.
 //! - [`trade`]: speed against accuracy. [`advise`]: a method for a microcontroller.
 //! - [`mod@reproduce`]: the reproduced results of the method's paper.
-//! - [`export`]: Rust source of a scene's const model and its plant.
+//! - [`mod@replace`]: files that a command may replace.
+//! - [`export`]: a scene as Rust source of its const model and plant, as URDF, as a library for C.
 //! - [`mod@fmu`]: a scene becomes an FMU for other tools.
 //! - [`mod@linearise`]: a scene as a linear system.
 //! - [`hil`]: one end of a line to a microcontroller.
@@ -49,6 +50,7 @@ pub mod picture;
 pub mod planar;
 pub mod play;
 pub mod relax;
+pub mod replace;
 pub mod report;
 pub mod reproduce;
 pub mod rounding;

@@ -10,6 +10,7 @@ mod parts;
 mod refusals;
 mod robots;
 mod sums;
+mod urdf;
 
 use std::path::Path;
 

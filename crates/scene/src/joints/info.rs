@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use dbd_kernel::Vec3;
+
 use crate::hinge::Hinge;
 use crate::joints::kind::Realisation;
 
@@ -14,6 +16,11 @@ pub struct JointInfo {
     pub kind: &'static str,
     /// The names of its two bodies (`world` for the ground).
     pub between: [String; 2],
+    /// \[m\] its position, world, where [`Scene::assembled_states`](crate::Scene::assembled_states) puts its bodies.
+    pub at: Vec3<f64>,
+    /// \[1\] unit axis of its first body and of its second, world, there; equal except for a universal joint, and
+    /// without meaning for a spherical or fixed one.
+    pub axes: [Vec3<f64>; 2],
     /// Its realisation.
     pub realisation: Realisation,
     /// Degrees of freedom that it constrains: 5 for a revolute, 3 for a spherical joint. A universal joint of TSDAs

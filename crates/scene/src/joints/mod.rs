@@ -94,6 +94,8 @@ pub(crate) fn read_all(
             name,
             kind: kind.name,
             between: joint.pair.names,
+            at: joint.at_w,
+            axes: joint.axes,
             realisation: joint.realisation,
             holds: kind.holds - brought,
             spider,

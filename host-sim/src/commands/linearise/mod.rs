@@ -7,13 +7,11 @@ mod formats;
 mod report;
 
 use std::fmt;
-use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 use dbd_plant::instance::{Blueprint, Instance, InstanceError, LinearOptions, Settings};
 use dbd_plant::time::Time;
-use dbd_report::output::file::write_at;
 use dbd_scene::nearest;
 use miette::Diagnostic;
 use thiserror::Error;
@@ -21,6 +19,7 @@ use thiserror::Error;
 use crate::arguments::SceneArgument;
 use crate::commands::linearise::formats::Format;
 pub use crate::commands::linearise::report::{LinearReport, Pole, Quantity};
+use crate::commands::replace::{ReplaceError, replace};
 use crate::terminal::Found;
 
 /// The scene, the time and the destination of a linearisation.
@@ -71,20 +70,9 @@ pub enum LineariseError {
         /// The file.
         file: PathBuf,
     },
-    /// The file has other contents.
-    #[error("{} was not written by host-sim linearise", file.display())]
-    Taken {
-        /// The file.
-        file: PathBuf,
-    },
-    /// The file cannot be written.
-    #[error("cannot write {}: {reason}", file.display())]
-    Write {
-        /// The file.
-        file: PathBuf,
-        /// The reason; part of the message and therefore not a source, which would repeat it.
-        reason: io::Error,
-    },
+    /// The file is not written.
+    #[error(transparent)]
+    File(#[from] ReplaceError),
 }
 
 impl Diagnostic for LineariseError {
@@ -101,10 +89,7 @@ impl Diagnostic for LineariseError {
                 Some(Box::new(format!("{meant}the {kind}s: {}", known.join(", "))))
             }
             Self::Ending { .. } => Some(Box::new("the extension selects the format")),
-            Self::Taken { .. } => {
-                Some(Box::new("choose another file with --out, or remove that one"))
-            }
-            Self::Write { .. } => None,
+            Self::File(error) => error.help(),
         }
     }
 }
@@ -142,12 +127,7 @@ pub fn linearise(
     let linear = instance.linearise(&options)?;
     let report = LinearReport::of(found, &instance, linear, states.is_some())?;
     if let Some((file, format)) = out {
-        // A device, which seems empty, is not replaced either.
-        if file.exists() && !(file.is_file() && is_ours(file, format)) {
-            return Err(LineariseError::Taken { file: file.to_owned() });
-        }
-        let written = write_at(file, format.text(&report));
-        written.map_err(|reason| LineariseError::Write { file: file.to_owned(), reason })?;
+        replace(file, &format.text(&report), (&format.head(), "linearise"))?;
     }
     Ok(report)
 }
@@ -172,13 +152,4 @@ fn check<'n>(
         name: name.clone(),
         known,
     })
-}
-
-/// Whether a file begins as one of this format does; an empty file may be replaced.
-fn is_ours(file: &Path, format: Format) -> bool {
-    let Ok(content) = std::fs::File::open(file) else { return false };
-    let head = format.head();
-    let mut begin = Vec::new();
-    let read = content.take(head.len() as u64).read_to_end(&mut begin);
-    read.is_ok_and(|count| count == 0 || begin == head.as_bytes())
 }

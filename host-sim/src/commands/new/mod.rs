@@ -20,6 +20,7 @@ use clap::{Args, Subcommand};
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::commands::export::ExportOptions;
 use crate::help;
 use choice::{ChoiceError, ChoiceOptions};
 
@@ -64,6 +65,20 @@ pub struct PlantArguments {
     /// How the plant steps
     #[command(flatten)]
     pub choice: ChoiceOptions,
+}
+
+impl PlantArguments {
+    /// The project of an export: its sources are those of this program.
+    #[must_use]
+    pub fn of(folder: &Path, scene: &str, options: &ExportOptions) -> Self {
+        let ExportOptions { scheme, damping, precision, step, .. } = *options;
+        Self {
+            name: folder.to_owned(),
+            scene: scene.to_owned(),
+            dependencies: DependencyOptions::default(),
+            choice: ChoiceOptions { scheme: Some(scheme), damping, precision, step },
+        }
+    }
 }
 
 /// Why there is no project or scene.
