@@ -13,6 +13,7 @@
 //!   type: [`F64`], [`F32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an orientation is a quaternion or, as
 //!   in the paper, Euler angles.
 //! - [`body`], [`rotation`], `lockstep`: one rigid body, and its rotation, alone or in lanes.
+//! - [`random`], [`chain`]: random numbers; signal chains of sensors and actuators.
 //! - [`status`], [`elements`], [`schedule`], [`sources`]: failures; the element laws, one per file; the timing of loads
 //!   and inputs; sines and tables that drive inputs.
 //! - `force_pair`, [`laws`]: forces on two bodies; user-defined laws, each a type that a model lists.
@@ -74,6 +75,7 @@ pub mod attitude;
 pub mod body;
 #[cfg(feature = "heapless")]
 pub mod builder;
+pub mod chain;
 mod compositions;
 #[cfg(feature = "nalgebra")]
 mod convert;
@@ -105,6 +107,7 @@ pub mod plane;
 pub mod plant;
 mod pose;
 pub mod power;
+pub mod random;
 pub mod readouts;
 pub mod real;
 mod refusal;

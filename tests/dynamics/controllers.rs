@@ -10,6 +10,8 @@ mod examples;
 #[allow(dead_code, reason = "an example has a main function of its own")]
 #[path = "../../host-sim/examples/follow.rs"]
 mod follow;
+#[path = "../../docs/examples/gate-opener/controller.rs"]
+mod gate;
 mod late;
 
 use dbd_kernel::readouts::Reading;
@@ -93,6 +95,44 @@ fn the_robot_stays_up_in_single_precision() {
     let (lines, _) = the_robot_is_pushed_and_stays_up("f32");
     let command = "cargo test -p dbd-tests --test dynamics controllers";
     dbd_tests::page::golden("docs/examples/balance-robot/golden.txt", &lines, command);
+}
+
+/// The gate opens to its switch, waits, and closes; with the bits that the target has, too: `xtask/src/chip/project.rs`.
+#[test]
+fn the_gate_opens_and_closes() {
+    use dbd_plant::instance::{Blueprint, Instance, Settings};
+    let file = "docs/examples/gate-opener/gate-opener.toml";
+    let text = std::fs::read_to_string(dbd_tests::results::path(file)).unwrap();
+    let kept = text
+        .lines()
+        .filter(|line| !(line.starts_with("table = ") || line.starts_with("interpolate = ")));
+    let text: String = kept.map(|line| format!("{line}\n")).collect();
+    let damping = Some("joint-wise".to_owned());
+    let settings = Settings { precision: Some("f32".into()), damping, ..Settings::default() };
+    let mut run = Instance::new(Blueprint::new("gate-opener.toml", text), settings).unwrap();
+    let (angle, motor) = (run.output("angle").unwrap(), run.input("motor").unwrap());
+    let encoder = run.output("angle.sensor").unwrap();
+    // As many as a project runs.
+    let steps = 10_000;
+    let (mut lines, mut next, mut open) = (String::new(), 1, 0.0);
+    for step in 1..=steps {
+        let time = (step - 1) as f32 * run.step_size() as f32;
+        let voltage = gate::voltage(time, run.value(encoder) as f32);
+        run.set_input(motor, f64::from(voltage)).unwrap();
+        run.advance(1).unwrap();
+        if step == next || step == steps {
+            lines += &format!("{step} {:016x}\n", run.hash());
+            next *= 10;
+        }
+        if time < 12.4 {
+            open = run.value(angle);
+        }
+    }
+    // Open it leans on its switch, short of the stop at 90°; closed it is back.
+    assert!((1.56..1.575).contains(&open), "{open} rad");
+    assert!(run.value(angle).abs() < 0.01, "{} rad", run.value(angle));
+    let command = "cargo test -p dbd-tests --test dynamics controllers";
+    dbd_tests::page::golden("docs/examples/gate-opener/golden.txt", &lines, command);
 }
 
 /// How far the tool is off at most \[m\].

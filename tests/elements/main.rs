@@ -2,6 +2,7 @@
 //! drives. The page `docs/elements.md` has the values.
 
 mod bushing;
+mod chains;
 mod contacts;
 mod costs;
 mod couplings;

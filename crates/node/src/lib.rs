@@ -9,7 +9,7 @@
 //!
 //! - [`number`], [`fault`]: conversion to integers; errors.
 //! - [`machine`], [`probe`]: the simulated machine; attachment of a sensor to it.
-//! - [`random`], [`sensor`]: seeded noise; the error model of a sensor.
+//! - [`sensor`]: one number of a sensor, with the kernel's seeded noise and error model.
 //! - [`share`], [`part`], [`node`]: shared cells; the parts that a node steps; the node.
 //! - [`motor`], [`encoder`], [`end_stop`]: parts without registers.
 //! - [`spi`], [`i2c`]: buses.
@@ -37,7 +37,6 @@ pub mod part;
 pub mod pins;
 pub mod probe;
 pub mod pwm;
-pub mod random;
 pub mod sensor;
 pub mod share;
 pub mod spi;

@@ -1,12 +1,11 @@
-//! The error model of a sensor: bias, walk, noise, range, resolution and delay.
-//!
-//! `value => (((value + bias + walk) + noise) limited, rounded to a multiple of the resolution) of DELAY samples ago`,
-//! in the plant's precision. Each term is skipped if its parameter is 0. Terms as in IEEE Std 952-1997, annex C: white
-//! noise by its deviation per sample, random walk by its deviation after one second.
+//! One number of a sensor: the kernel's error model ([`dbd_kernel::chain`]) in the plant's precision, `DELAY` samples
+//! late.
+
+use dbd_kernel::chain::{Errors as ErrorModel, Wander};
+use dbd_kernel::random::Stream;
 
 use crate::fault::{Problem, WiringError};
 use crate::number::Number;
-use crate::random::Stream;
 
 /// Errors of a sensor, in its unit. The default is a sensor without errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,15 +48,9 @@ pub struct Sensor<R, const DELAY: usize = 0> {
     errors: Errors,
     name: &'static str,
     lane: u16,
-    noise: R,
-    bias: R,
+    model: ErrorModel<R>,
     per_root: R,
-    walk: R,
-    resolution: R,
-    range: [R; 2],
-    noises: Stream,
-    walks: Stream,
-    wandered: R,
+    wander: Wander<R>,
     late: [R; DELAY],
     next: usize,
     begun: bool,
@@ -92,15 +85,15 @@ impl<R: Number, const DELAY: usize> Sensor<R, DELAY> {
             errors,
             name,
             lane,
-            noise: R::from_f64(fine(errors.noise, "the noise")?),
-            bias: R::from_f64(errors.bias),
+            model: ErrorModel {
+                noise: R::from_f64(fine(errors.noise, "the noise")?),
+                bias: R::from_f64(errors.bias),
+                walk: per_root * R::from_f64(period).sqrt(),
+                resolution: R::from_f64(fine(errors.resolution, "the resolution")?),
+                range: errors.range.map(R::from_f64),
+            },
             per_root,
-            walk: per_root * R::from_f64(period).sqrt(),
-            resolution: R::from_f64(fine(errors.resolution, "the resolution")?),
-            range: errors.range.map(R::from_f64),
-            noises: Stream::new(errors.seed, name, lanes(lane)[0]),
-            walks: Stream::new(errors.seed, name, lanes(lane)[1]),
-            wandered: R::ZERO,
+            wander: wander(errors.seed, name, lane),
             late: [R::ZERO; DELAY],
             next: 0,
             begun: false,
@@ -110,13 +103,13 @@ impl<R: Number, const DELAY: usize> Sensor<R, DELAY> {
     /// Continues with another sample period \[s\], which is not negative.
     #[inline]
     pub fn set_period(&mut self, period: R) {
-        self.walk = self.per_root * period.sqrt();
+        self.model.walk = self.per_root * period.sqrt();
     }
 
     /// The output for the present exact value. Before `DELAY` samples have been taken it is the first one.
     #[inline]
     pub fn sample(&mut self, actual: R) -> R {
-        let shown = self.show(actual);
+        let shown = self.model.sample(actual, &mut self.wander);
         if DELAY == 0 {
             return shown;
         }
@@ -130,25 +123,6 @@ impl<R: Number, const DELAY: usize> Sensor<R, DELAY> {
         old
     }
 
-    /// The present sample without its delay.
-    #[inline]
-    fn show(&mut self, actual: R) -> R {
-        let mut value = actual + self.bias;
-        if self.walk != R::ZERO {
-            self.wandered = self.wandered + self.walk * self.walks.normal::<R>();
-            value = value + self.wandered;
-        }
-        if self.noise != R::ZERO {
-            value = value + self.noise * self.noises.normal::<R>();
-        }
-        let [least, most] = self.range;
-        value = value.limited(least, most);
-        if self.resolution != R::ZERO {
-            value = (value / self.resolution).rounded() * self.resolution;
-        }
-        value
-    }
-
     /// Its errors.
     pub fn errors(&self) -> &Errors {
         &self.errors
@@ -156,21 +130,20 @@ impl<R: Number, const DELAY: usize> Sensor<R, DELAY> {
 
     /// \[unit\] the present bias, including the walk.
     pub fn bias(&self) -> R {
-        self.bias + self.wandered
+        self.model.bias + self.wander.walk
     }
 
     /// Resets the random numbers, the walk and the delay.
     pub fn reset(&mut self) {
-        self.noises = Stream::new(self.errors.seed, self.name, lanes(self.lane)[0]);
-        self.walks = Stream::new(self.errors.seed, self.name, lanes(self.lane)[1]);
-        self.wandered = R::ZERO;
+        self.wander = wander(self.errors.seed, self.name, self.lane);
         self.next = 0;
         self.begun = false;
     }
 }
 
-/// The lanes of noise and walk.
-fn lanes(lane: u16) -> [u32; 2] {
+/// The streams of noise and walk.
+fn wander<R: Number>(seed: u64, name: &str, lane: u16) -> Wander<R> {
     let lane = 2 * u32::from(lane);
-    [lane, lane + 1]
+    let [noises, walks] = [lane, lane + 1].map(|lane| Stream::new(seed, name, lane));
+    Wander { noises, walks, walk: R::ZERO }
 }

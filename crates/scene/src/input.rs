@@ -14,7 +14,7 @@ use crate::free_length;
 use crate::hinge::Hinge;
 use crate::interaction::{self, Driven};
 use crate::joints::JointPlace;
-use crate::known::{HINGE, Known, hinge, slide};
+use crate::known::{Known, hinge, slide};
 use crate::names::Names;
 use crate::points::PlaceOf;
 use crate::target::{ElementName, Kinds, Target};
@@ -44,11 +44,16 @@ struct InputType {
     read: fn(&Table<'_>, &mut Known<'_>) -> Result<InputKind<F64>, SceneError>,
 }
 
+/// The keys of a torque and of a force at a joint, with those of a signal chain.
+const TORQUE: &[&str] =
+    &["target", "axis", "about", "lag", "delay", "limits", "rate_limit", "period"];
+const FORCE: &[&str] = &["target", "lag", "delay", "limits", "rate_limit", "period"];
+
 static TYPES: [InputType; 9] = [
     InputType { name: "force", unit: "N", keys: &["body", "point", "axis", "frame"], read: force },
     InputType { name: "torque", unit: "N·m", keys: &["body", "axis", "frame"], read: torque },
-    InputType { name: "joint_torque", unit: "N·m", keys: HINGE, read: joint_torque },
-    InputType { name: "joint_force", unit: "N", keys: &["target"], read: joint_force },
+    InputType { name: "joint_torque", unit: "N·m", keys: TORQUE, read: joint_torque },
+    InputType { name: "joint_force", unit: "N", keys: FORCE, read: joint_force },
     InputType { name: "actuator", unit: "N", keys: &["target"], read: actuator },
     InputType { name: "anchor", unit: "m", keys: &["target", "axis"], read: anchor },
     InputType { name: free_length::TYPE, unit: "m", keys: interaction::WINCH, read: signal },
@@ -170,12 +175,18 @@ fn frame(table: &Table<'_>) -> Result<LoadFrame, SceneError> {
 }
 
 fn joint_torque(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    if interaction::has_chain(table) {
+        return signal(table, known);
+    }
     let Hinge { a, b, axis } = hinge(table, known)?;
     let in_b = known.assembly.vector_in(b, known.assembly.direction_w(a, axis));
     Ok(InputKind::JointTorque { a, b, axes: [axis, in_b] })
 }
 
 fn joint_force(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    if interaction::has_chain(table) {
+        return signal(table, known);
+    }
     let JointPlace { pair, at_w, axis_w, .. } = slide(table, known, "a joint_force")?;
     let point = known.assembly.point_in(pair.b, *at_w);
     let axis = known.assembly.vector_in(pair.a, *axis_w);

@@ -13,9 +13,6 @@ use crate::pair::Pair;
 use crate::target::{ElementName, Elements, Kinds, Target};
 use crate::text::{Choice, Direction, Table};
 
-/// The keys that name a hinge, besides `target`.
-pub(crate) const HINGE: &[&str] = &["target", "axis", "about"];
-
 /// What inputs and read-outs can refer to.
 pub(crate) struct Known<'k> {
     /// The model so far.

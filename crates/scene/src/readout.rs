@@ -11,8 +11,9 @@ use crate::between::BodyName;
 use crate::columns::Taken;
 use crate::error::SceneError;
 use crate::input::InputInfo;
+use crate::interaction::sensor_name;
 use crate::joints::JointPlace;
-use crate::known::{HINGE, Known, hinge, slide};
+use crate::known::{Known, hinge, slide};
 use crate::names::Names;
 use crate::nearest::nearest;
 use crate::points::PlaceOf;
@@ -30,6 +31,8 @@ pub struct ReadoutInfo {
     pub columns: Vec<(&'static str, &'static str)>,
     /// The kernel's sensor, in double precision.
     pub readout: Readout<F64>,
+    /// The number of its table in the scene file; a read-out with a `sensor` and that sensor share one.
+    pub table: usize,
 }
 
 type Read = fn(&Table<'_>, &mut Known<'_>, &[InputInfo]) -> Result<Readout<F64>, SceneError>;
@@ -59,7 +62,7 @@ static TYPES: [ReadoutType; 11] = [
     ReadoutType {
         name: "joint_angle",
         columns: Columns::Scalar("rad"),
-        keys: &["target", "axis", "about", "offset"],
+        keys: &["target", "axis", "about", "offset", "sensor"],
         read: |table, known, _| {
             let offset = table.optional("offset", Number::any("rad"))?.unwrap_or_default();
             Ok(Readout::JointAngle { spring: spring(table, known)?, offset })
@@ -68,13 +71,13 @@ static TYPES: [ReadoutType; 11] = [
     ReadoutType {
         name: "joint_rate",
         columns: Columns::Scalar("rad/s"),
-        keys: HINGE,
+        keys: &["target", "axis", "about", "sensor"],
         read: |table, known, _| Ok(Readout::JointRate { spring: spring(table, known)? }),
     },
     ReadoutType {
         name: "joint_travel",
         columns: Columns::Scalar("m"),
-        keys: &["target", "offset"],
+        keys: &["target", "offset", "sensor"],
         read: |table, known, _| {
             let offset = table.optional("offset", Number::any("m"))?.unwrap_or_default();
             Ok(Readout::JointTravel { slide: travel(table, known, "a joint_travel")?, offset })
@@ -83,7 +86,7 @@ static TYPES: [ReadoutType; 11] = [
     ReadoutType {
         name: "joint_travel_rate",
         columns: Columns::Scalar("m/s"),
-        keys: &["target"],
+        keys: &["target", "sensor"],
         read: |table, known, _| {
             Ok(Readout::JointTravelRate { slide: travel(table, known, "a joint_travel_rate")? })
         },
@@ -167,7 +170,7 @@ pub(crate) fn read_all(
     let mut names = Names::default();
     let mut infos = Vec::new();
     let mut taken = Taken::new(known.assembly.body_names());
-    for table in root.list("readout")? {
+    for (number, table) in root.list("readout")?.into_iter().enumerate() {
         let kind = kind(&table)?;
         table.only(&[KEYS, kind.keys])?;
         let name = names.read(&table, "readout", ())?;
@@ -186,8 +189,13 @@ pub(crate) fn read_all(
             Columns::Input => vec![("", input(&table, inputs)?.unit)],
             Columns::Law => vec![("", quantity(&table, known)?.2)],
         };
-        for (end, _) in &columns {
-            let column = format!("{name}{end}");
+        let sensor = sensor_name(&name);
+        let measured = match known.elements.get(&sensor) {
+            Some(Target::Interaction(row)) if table.has("sensor") => Some(*row),
+            _ => None,
+        };
+        let shown = columns.iter().map(|(end, _)| format!("{name}{end}"));
+        for column in shown.chain(measured.map(|_| sensor.clone())) {
             if let Err(owner) = taken.take(column.clone(), table.label()) {
                 let problem = format!(
                     "gives the trace a column `{column}`, which {owner} already \
@@ -197,7 +205,15 @@ pub(crate) fn read_all(
                 return Err(table.refuse_value("name", &problem, help));
             }
         }
-        infos.push(ReadoutInfo { name, kind: kind.name, columns, readout });
+        let measured = measured.map(|row| ReadoutInfo {
+            name: sensor,
+            kind: kind.name,
+            columns: columns.clone(),
+            readout: Readout::Law { law: LawIndex(row as u16), quantity: 0 },
+            table: number,
+        });
+        infos.push(ReadoutInfo { name, kind: kind.name, columns, readout, table: number });
+        infos.extend(measured);
     }
     Ok(infos)
 }
@@ -269,7 +285,9 @@ fn quantity(
     }
     let names: Vec<&'static str> = quantities.iter().map(|quantity| quantity.name).collect();
     let place = table.required("quantity", Choice(&names))?;
-    Ok((row, place, quantities[place].unit))
+    let unit = quantities[place].unit;
+    // A plain number has none.
+    Ok((row, place, if unit == "1" { "" } else { unit }))
 }
 
 fn tsda_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, SceneError> {

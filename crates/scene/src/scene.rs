@@ -228,6 +228,7 @@ impl Scene {
         let lines = match table {
             "joint" => &lines.joints,
             "input" => &lines.inputs,
+            "readout" => &lines.readouts,
             "coupling" => &lines.couplings,
             "tsda" => &lines.tsdas,
             "torsion_spring" => &lines.torsion_springs,

@@ -13,7 +13,8 @@ use crate::{orientation, point_on_line, points, readout, spring, start, torsion_
 pub struct TableKeys {
     /// Its name: `scene`, `body`, `joint`; for nested tables `link`, `shape`, `spider`, `orientation`,
     /// `point` (in `[points]`), `halves` (`{ first, second }`), `rate` (of a joint in `assemble.rates`), `stiffness`,
-    /// `sine`, `limits`, `friction` and `rotor` of joints, `gear` and `winding` of drives, `term` of couplings.
+    /// `sine`, `limits`, `friction` and `rotor` of joints, `gear` and `winding` of drives, `sensor` of
+    /// read-outs, `term` of couplings.
     pub table: &'static str,
     /// The type or shape with these keys, if there are several: `revolute`.
     pub kind: Option<&'static str>,
@@ -44,6 +45,7 @@ pub fn vocabulary() -> Vec<TableKeys> {
         one("gear", &[interaction::GEAR]),
         one("shaft_friction", &[interaction::SHAFT_FRICTION]),
         one("winding", &[interaction::WINDING]),
+        one("sensor", &[interaction::SENSOR]),
         one("coupling", &[interaction::COUPLING]),
         one("term", &[interaction::TERM]),
     ];

@@ -7,13 +7,13 @@
 use dbd_kernel::geometry::{Float, Named};
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::InputError;
+use dbd_kernel::random::Stream;
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::words::{Fnv1a, Word, WordVisitor as _};
 use dbd_kernel::{BodyIndex, Geometry, Real, Status, Vec3};
 use dbd_node::encoder::Counting as _;
 use dbd_node::i2c::I2cPart as _;
 use dbd_node::motor::Bridge as _;
-use dbd_node::random::Stream;
 use dbd_node::spi::SpiPart as _;
 use dbd_node::{
     As5047p, Channel, Encoder, EncoderParameters, Errors, Fault, ImuParameters, Machine, Motor,

@@ -15,6 +15,7 @@
 #[macro_use]
 mod declare;
 
+mod actuator;
 mod branch;
 mod branches;
 mod brush;
@@ -48,6 +49,7 @@ mod list;
 mod plane_contact;
 mod rotor;
 mod row;
+mod sensor;
 mod servo;
 mod shaft_friction;
 mod slice;
@@ -61,6 +63,7 @@ mod tabled;
 mod term;
 mod wheel_contact;
 
+pub use actuator::{Actuated, HingeActuator, SlideActuator};
 pub use branch::{Branch, MAX_BRANCHES};
 pub use bushing::Bushing;
 pub use bushing_curves::BushingCurves;
@@ -98,6 +101,7 @@ pub use ldl::Ldl;
 pub use list::Laws;
 pub use plane_contact::PlaneContact;
 pub use row::{Act, DamperPass, Row};
+pub use sensor::{HingeSensor, Sensed, SlideSensor};
 #[doc(hidden)]
 pub use slice::{act, look, memory, shares_of, sweep};
 pub use slide_drive::{SlideDrive, SlideDriveFriction};

@@ -24,10 +24,12 @@ fn joint(name: &str, kind: &str, [a, b]: [&str; 2], at: [f64; 3], more: &str) ->
 }
 
 const TURN: &str = "span = 0.2\naxis = [1, 0.5, 0]\nrealisation = \"bushing\"";
-const SLIDE: &str = "span = 0.2\naxis = [0, 0.6, 0.8]\nreference = [1, 0, 0]\ngauge = 0.2\noffset = 0.1";
+const SLIDE: &str =
+    "span = 0.2\naxis = [0, 0.6, 0.8]\nreference = [1, 0, 0]\ngauge = 0.2\noffset = 0.1";
 
 fn scene(parts: &[String]) -> Scene {
-    let text = format!("name = \"a & b\"\nduration = 0.2\ngravity = [1, 0, -9]\n{}", parts.concat());
+    let text =
+        format!("name = \"a & b\"\nduration = 0.2\ngravity = [1, 0, -9]\n{}", parts.concat());
     Scene::parse(&text, "s.toml").unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
@@ -35,7 +37,8 @@ fn scene(parts: &[String]) -> Scene {
 fn again(scene: &Scene) -> (Scene, String) {
     let text = urdf(scene, &[]).unwrap_or_else(|error| panic!("{error}")).text;
     // The ends of unbounded slides are limits; their stiffness does not matter.
-    let options = Options { weld: Weld::Fixed, stiffness: 1e8, duration: 0.2, ..Options::default() };
+    let options =
+        Options { weld: Weld::Fixed, stiffness: 1e8, duration: 0.2, ..Options::default() };
     (loaded(&of(&text, &options)), text)
 }
 
@@ -80,7 +83,10 @@ fn a_mechanism_comes_back_with_its_motion() {
             ]);
             let (two, text) = again(&one);
             let (gap, moved) = apart(&one, &two);
-            assert!(gap < 2e-4 && moved > 0.05, "{kind} {reversed}: {gap:e} of {moved:e} m\n{text}");
+            assert!(
+                gap < 2e-4 && moved > 0.05,
+                "{kind} {reversed}: {gap:e} of {moved:e} m\n{text}"
+            );
         }
     }
 }
@@ -105,9 +111,17 @@ fn what_acts_on_coordinates_comes_back() {
             "revolute",
             ["world", "arm"],
             [0.0; 3],
-            &format!("{TURN}\nlimits = {{ from = -0.5, to = 0.25, stiffness = 1e4 }}\nfriction = {{ coulomb = 0.2, viscous = 0.1 }}"),
+            &format!(
+                "{TURN}\nlimits = {{ from = -0.5, to = 0.25, stiffness = 1e4 }}\nfriction = {{ coulomb = 0.2, viscous = 0.1 }}"
+            ),
         ),
-        joint("rail", "translational", ["cart", "world"], [0.0, 1.0, 0.0], &format!("{SLIDE}\nlimits = {{ to = 0.3, stiffness = 1e4 }}")),
+        joint(
+            "rail",
+            "translational",
+            ["cart", "world"],
+            [0.0, 1.0, 0.0],
+            &format!("{SLIDE}\nlimits = {{ to = 0.3, stiffness = 1e4 }}"),
+        ),
         acts.to_owned(),
         shapes.to_owned(),
     ]);
@@ -195,15 +209,24 @@ fn links_without_mass_join_their_joints() {
     let [first, second] = scene.joints[0].axes.map(|axis| axis.to_f64());
     let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
     let (sine, cosine) = 0.3_f64.sin_cos();
-    assert!(near(first, [1.0, 0.0, 0.0]) && near(second, [0.0, cosine, sine]), "{first:?} {second:?}");
+    assert!(
+        near(first, [1.0, 0.0, 0.0]) && near(second, [0.0, cosine, sine]),
+        "{first:?} {second:?}"
+    );
     assert!(near(scene.joints[0].at.to_f64(), [0.0, 0.0, 1.0]));
     let (sine, cosine) = 0.4_f64.sin_cos();
     // 0.1 m along x, rotated about y by 0.4 rad, then about x by 0.3 rad.
     let [along, down] = [0.1 * cosine, 0.1 * sine];
     let expected = [along, down * 0.3_f64.sin(), 1.0 - down * 0.3_f64.cos()];
-    assert!(near(scene.model.initial[0].position.to_f64(), expected), "{:?}", scene.model.initial[0]);
+    assert!(
+        near(scene.model.initial[0].position.to_f64(), expected),
+        "{:?}",
+        scene.model.initial[0]
+    );
     // A link with a shape needs a mass of its own.
     let shape = "<visual><geometry><sphere radius='0.1'/></geometry></visual>";
     let options = Options::default();
-    assert!(dbd_import::import_text(&link(shape), "r", std::path::Path::new(""), &options).is_err());
+    assert!(
+        dbd_import::import_text(&link(shape), "r", std::path::Path::new(""), &options).is_err()
+    );
 }

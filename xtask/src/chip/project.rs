@@ -28,8 +28,9 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
     // Not below the repository, whose .cargo/config.toml cargo would add to the project's.
     let folder = std::env::temp_dir().join(format!("dbd-{NAME}-{}", std::process::id()));
     fs::create_dir_all(&folder)?;
-    let both = [written(&host_sim, &folder.join(NAME), SCENE, &[]), balanced(&host_sim, &folder)];
-    let checked = both.into_iter().try_for_each(|project| {
+    let first = written(&host_sim, &folder.join(NAME), SCENE, &[]);
+    let controlled = CONTROLLED.map(|machine| machine.written(&host_sim, &folder));
+    let checked = std::iter::once(first).chain(controlled).try_for_each(|project| {
         let project = project?;
         on_the_target(toolchain, &project)?;
         if here { on_the_pc(toolchain, &project) } else { Ok(()) }
@@ -52,12 +53,19 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
 /// A mechanism with a drive, friction and stops: laws have their bits on the target, too.
 const SCENE: &str = "docs/examples/gate-opener/gate-opener.toml";
 
-/// A mechanism with its controller: a scene, two source files, and the golden bits of its run on the PC.
-const ROBOT: &str = "docs/examples/balance-robot";
-/// The function that the controller replaces, and its replacement.
-const CONTROL: [&str; 2] = [
-    "pub fn control(_plant: &mut BalanceRobotPlant) {}",
-    "mod control;\npub mod controller;\npub use control::control;",
+/// A mechanism with its controller, in a folder of the examples: a scene, two source files, and the golden bits of
+/// its run on the PC.
+struct Controlled {
+    name: &'static str,
+    /// The type of its plant.
+    plant: &'static str,
+    /// Lines of the scene that drive its input without a controller.
+    table: &'static [&'static str],
+}
+
+const CONTROLLED: [Controlled; 2] = [
+    Controlled { name: "balance-robot", plant: "BalanceRobot", table: &[] },
+    Controlled { name: "gate-opener", plant: "GateOpener", table: &["table = ", "interpolate = "] },
 ];
 
 /// A scene, and a core with double precision in hardware: a step in software takes about 190,000 instructions.
@@ -96,22 +104,30 @@ fn written(host_sim: &Path, project: &Path, scene: &str, options: &[&str]) -> Re
     Ok(project.to_owned())
 }
 
-/// The project of the robot with its controller, as the cookbook says.
-fn balanced(host_sim: &Path, folder: &Path) -> Result<PathBuf> {
-    let scene = format!("{ROBOT}/balance-robot.toml");
-    let project = written(host_sim, &folder.join("balance-robot"), &scene, &[])?;
-    let copy = |file: &str, to: &str| fs::copy(root().join(ROBOT).join(file), project.join(to));
-    copy("control.rs", "src/control.rs")?;
-    copy("controller.rs", "src/controller.rs")?;
-    copy("golden.txt", "tests/golden.txt")?;
-    let file = project.join("src/lib.rs");
-    let source = fs::read_to_string(&file)?;
-    let [function, instead] = CONTROL;
-    if !source.contains(function) {
-        bail!("{} does not have `{function}`", file.display());
+impl Controlled {
+    /// The project with its controller, as the cookbook says.
+    fn written(&self, host_sim: &Path, folder: &Path) -> Result<PathBuf> {
+        let own = root().join("docs/examples").join(self.name);
+        let text = fs::read_to_string(own.join(format!("{}.toml", self.name)))?;
+        let kept = text.lines().filter(|line| !self.table.iter().any(|key| line.starts_with(key)));
+        let scene = folder.join(format!("{}.toml", self.name));
+        fs::write(&scene, kept.map(|line| format!("{line}\n")).collect::<String>())?;
+        let project = folder.join(format!("{}-controlled", self.name));
+        let project = written(host_sim, &project, &scene.to_string_lossy(), &[])?;
+        let copy = |file: &str, to: &str| fs::copy(own.join(file), project.join(to));
+        copy("control.rs", "src/control.rs")?;
+        copy("controller.rs", "src/controller.rs")?;
+        copy("golden.txt", "tests/golden.txt")?;
+        let file = project.join("src/lib.rs");
+        let source = fs::read_to_string(&file)?;
+        let function = format!("pub fn control(_plant: &mut {}Plant) {{}}", self.plant);
+        if !source.contains(&function) {
+            bail!("{} does not have `{function}`", file.display());
+        }
+        let own = "mod control;\npub mod controller;\npub use control::control;";
+        fs::write(&file, source.replace(&function, own))?;
+        Ok(project)
     }
-    fs::write(&file, source.replace(function, instead))?;
-    Ok(project)
 }
 
 /// The project that the notebook of the Python package has written, with the golden bits of its run in Python; `None`

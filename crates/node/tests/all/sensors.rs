@@ -4,8 +4,8 @@
 use std::cell::RefCell;
 
 use crate::shaft::{RATE, STEP, Shaft, TORQUE};
+use dbd_kernel::random::Stream;
 use dbd_node::motor::Bridge as _;
-use dbd_node::random::Stream;
 use dbd_node::{
     Channel, Errors, Motor, MotorParameters, Node, Number, Probe, Sensor, Shared as _, Supply,
 };

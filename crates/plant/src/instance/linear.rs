@@ -95,6 +95,15 @@ impl Instance {
                 remedy: "give a number between 0 and 0.1",
             });
         }
+        // A sensor keeps its samples: it does not follow small changes of the state.
+        let is_sensor = |name: &String| name.ends_with(".sensor");
+        let asked = [states, outputs].into_iter().flatten().flatten();
+        if let Some(name) = asked.into_iter().find(|name| is_sensor(name)) {
+            return Err(InstanceError::Linearisation {
+                what: format!("the output `{name}` is sampled by a sensor"),
+                remedy: "use the read-out without `.sensor`",
+            });
+        }
         let all = || self.inputs().iter().map(|input| input.name.clone()).collect();
         let inputs: Vec<String> = inputs.clone().unwrap_or_else(all);
         let driven: Result<Vec<_>, _> = inputs.iter().map(|name| self.input(name)).collect();
@@ -103,6 +112,7 @@ impl Instance {
         let Some(states) = states.clone() else {
             let first = self.outputs().len() - self.readout_columns();
             let names = self.outputs()[first..].iter().map(|output| output.name.clone());
+            let names = names.filter(|name| !is_sensor(name));
             let outputs = outputs.clone().unwrap_or_else(|| names.collect());
             let shown = places(&outputs)?;
             let Jacobians { rate, a, b, c, d } =

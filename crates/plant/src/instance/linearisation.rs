@@ -66,6 +66,14 @@ impl Probe {
                 remedy: "use a drive without a rotor and add its inertia to a body",
             });
         }
+        if let Some(law) =
+            instance.plant().model().laws.names().find(|law| law.ends_with("-actuator"))
+        {
+            return Err(InstanceError::Linearisation {
+                what: format!("the signal chain of the law `{law}` has a state outside the bodies"),
+                remedy: "use an input without `lag`, `delay`, `limits`, `rate_limit` and `period`",
+            });
+        }
         let set = of.set().iter().map(|(path, value)| (path.as_str(), *value));
         instance.set_parameters(set)?;
         let state = instance.plant().state();

@@ -21,7 +21,7 @@ pub(super) enum Of<'a> {
     Itself,
     /// A joint, which defines the geometry.
     Joint(OfJoint<'a>),
-    /// A drive at a joint: geometry, input, constants.
+    /// A drive or a signal chain at a joint: geometry, input, constants.
     Drive(&'a JointPlace, usize, Constants),
     /// A raw TSDA or a torsion spring: points, axis (world).
     Spring([[f64; 3]; 2], Vec3<f64>),
@@ -146,6 +146,9 @@ impl FieldSource for Reading<'_, '_> {
         let table = self.table;
         if field.kind == "signal" {
             return self.signal(field);
+        }
+        if let Of::Drive(.., constants) = &self.of {
+            return Some(constants.get(field.name).unwrap_or(0.0) as u32);
         }
         let read = table.required(field.name, Number::not_negative("")).and_then(|number| {
             if number.fract() == 0.0 && number <= f64::from(u32::MAX) {

@@ -3,12 +3,14 @@
 //! `tables => rows of laws`.
 
 mod field;
+mod of_chains;
 mod of_couplings;
 mod of_drives;
 mod of_joints;
 mod of_springs;
 mod of_winches;
 
+pub(crate) use of_chains::{SENSOR, has_chain, sensor_name};
 pub(crate) use of_couplings::{KEYS as COUPLING, TERM};
 pub(crate) use of_drives::{
     Driven, GEAR, KEYS as DRIVE, SHAFT_FRICTION, TYPE as DRIVE_TYPE, WINDING,
@@ -150,6 +152,7 @@ pub(crate) fn read_all(
     of_winches(root, elements, assembly, &mut rows)?;
     of_drives(root, (joints, elements), assembly, &mut rows)?;
     of_couplings(root, (joints, elements), assembly, &mut rows)?;
+    of_chains(root, (joints, elements), assembly, &mut rows)?;
     for (number, table) in root.list("interaction")?.into_iter().enumerate() {
         let known = &rows.known;
         if !table.has("law") {
@@ -303,6 +306,35 @@ fn of_drives<'t>(
         let one =
             One { name: Some(name), table, label, place: ("input", number), quantities: None };
         rows.add(law, assembly, (&place.pair, Of::Drive(place, number, constants)), one)?;
+    }
+    Ok(())
+}
+
+/// Reads signal chains of inputs, and sensors of read-outs.
+fn of_chains<'t>(
+    root: &Table<'t>,
+    joints: (&[JointPlace], &Elements),
+    assembly: &Assembly,
+    rows: &mut Rows<'t>,
+) -> Result<(), SceneError> {
+    for kind in ["input", "readout"] {
+        for (number, table) in root.list(kind)?.into_iter().enumerate() {
+            let chain = match kind {
+                "input" => of_chains::chain(&table, joints)?,
+                _ => of_chains::sensor(&table, joints)?,
+            };
+            let Some((place, law, constants)) = chain else { continue };
+            let Some(law) = rows.known.iter().position(|known| known.name == law) else { continue };
+            let mut name = table.required("name", Text::Name)?;
+            if kind == "readout" {
+                name = sensor_name(&name);
+            }
+            let [a, b] = &place.pair.names;
+            let label = format!("{kind} `{name}` ({a}–{b})");
+            let one =
+                One { name: Some(name), table, label, place: (kind, number), quantities: None };
+            rows.add(law, assembly, (&place.pair, Of::Drive(place, number, constants)), one)?;
+        }
     }
     Ok(())
 }

@@ -76,6 +76,10 @@ pub fn known_laws() -> Vec<KnownLaw> {
         KnownLaw::of::<laws::SlideDrive>("dbd_kernel::laws::SlideDrive"),
         KnownLaw::of::<laws::HingeDriveFriction>("dbd_kernel::laws::HingeDriveFriction"),
         KnownLaw::of::<laws::SlideDriveFriction>("dbd_kernel::laws::SlideDriveFriction"),
+        KnownLaw::of::<laws::HingeSensor>("dbd_kernel::laws::HingeSensor"),
+        KnownLaw::of::<laws::SlideSensor>("dbd_kernel::laws::SlideSensor"),
+        KnownLaw::of::<laws::HingeActuator>("dbd_kernel::laws::HingeActuator"),
+        KnownLaw::of::<laws::SlideActuator>("dbd_kernel::laws::SlideActuator"),
     ];
     let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
     linked_laws().into_iter().chain(own.iter().cloned()).for_each(|law| put(&mut known, law));

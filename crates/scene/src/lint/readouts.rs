@@ -6,7 +6,7 @@ use crate::lint::warning::{Severity, Warning};
 use crate::scene::Scene;
 
 pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
-    for (info, line) in scene.readouts.iter().zip(&scene.file_lines.readouts) {
+    for info in &scene.readouts {
         let Readout::JointForce { group } = info.readout else { continue };
         let number = usize::from(group);
         let Some(joint) = scene.joints.iter().find(|joint| joint.groups.contains(&number)) else {
@@ -18,7 +18,7 @@ pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
         warnings.push(Warning {
             severity: Severity::Note,
             name: format!("read-out `{}`", info.name),
-            line: Some(*line),
+            line: scene.file_lines.readouts.get(info.table).copied(),
             text: format!(
                 "joint `{}` is undamped, so its force oscillates about the load; give the joint a \
                  `damping_ratio` with a `frequency`",

@@ -6,10 +6,10 @@
 
 use dbd_kernel::laws::{
     Bushing, BushingCurves, BushingMatrix, BushingMaxwell, Coupling, DistanceDamper,
-    DistanceSpring, DistanceStop, DistanceWinch, EndStop, HingeDamper, HingeDrive,
-    HingeDriveFriction, HingeFriction, HingeServo, HingeSpring, HingeStop, PlaneContact,
-    SlideDrive, SlideDriveFriction, SlideFriction, SlideServo, SoftDistanceStop, SoftEndStop,
-    SoftHingeStop, SphereContact, WheelContact,
+    DistanceSpring, DistanceStop, DistanceWinch, EndStop, HingeActuator, HingeDamper, HingeDrive,
+    HingeDriveFriction, HingeFriction, HingeSensor, HingeServo, HingeSpring, HingeStop,
+    PlaneContact, SlideActuator, SlideDrive, SlideDriveFriction, SlideFriction, SlideSensor,
+    SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop, SphereContact, WheelContact,
 };
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
@@ -58,6 +58,12 @@ type OfTravels<P> = Lawful<
         [SlideDrive<P>; 1],
         [SlideDriveFriction<P>; 1],
     ),
+>;
+
+/// Sensors and actuators.
+type OfChains<P> = Lawful<
+    P,
+    ([HingeSensor<P>; 1], [SlideSensor<P>; 1], [HingeActuator<P>; 1], [SlideActuator<P>; 1]),
 >;
 
 /// Stops and contacts.
@@ -140,6 +146,7 @@ pub fn keep(keep: Keep) {
             $(
                 step!(keep, "laws-of-turns" OfTurns<$precision>, "leapfrog" Leapfrog, $name);
                 step!(keep, "laws-of-travels" OfTravels<$precision>, "leapfrog" Leapfrog, $name);
+                step!(keep, "laws-of-chains" OfChains<$precision>, "leapfrog" Leapfrog, $name);
                 step!(keep, "laws-of-contacts" OfContacts<$precision>, "leapfrog" Leapfrog, $name);
                 step!(keep, "laws-of-mounts" OfMounts<$precision>, "leapfrog" Leapfrog, $name);
             )*
