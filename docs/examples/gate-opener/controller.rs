@@ -7,10 +7,10 @@ const CLOSES: f32 = 12.5;
 const ENDS: [f32; 2] = [1.565, 0.0];
 
 /// \[V, V/s\] the voltage on the way, near an end, and its rise at the start.
-const VOLTAGES: [f32; 3] = [24.0, 4.0, 48.0];
+const VOLTAGES: [f32; 3] = [24.0, 6.0, 48.0];
 
 /// \[rad\] the angle before an end from which the gate creeps.
-const CREEP: f32 = 0.25;
+const CREEP: f32 = 0.08;
 
 /// \[V\] of the motor after `time` \[s\] at an angle of the gate \[rad\].
 pub fn voltage(time: f32, angle: f32) -> f32 {

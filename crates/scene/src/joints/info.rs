@@ -18,8 +18,8 @@ pub struct JointInfo {
     pub between: [String; 2],
     /// \[m\] its position, world, where [`Scene::assembled_states`](crate::Scene::assembled_states) puts its bodies.
     pub at: Vec3<f64>,
-    /// \[1\] unit axis of its first body and of its second, world, there; equal except for a universal joint, and
-    /// without meaning for a spherical or fixed one.
+    /// \[1\] unit axis of its first body and of its second, world, there; equal except for a universal joint, and z for a
+    /// spherical one.
     pub axes: [Vec3<f64>; 2],
     /// Its realisation.
     pub realisation: Realisation,

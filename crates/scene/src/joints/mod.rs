@@ -67,6 +67,9 @@ pub(crate) const WITHIN: [(&str, &[&str]); 4] = [
     ("rate", rates::RATES),
 ];
 
+/// Axes of a joint without an axis.
+const NO_AXES: [Vec3<f64>; 2] = [Vec3::new(0.0, 0.0, 1.0); 2];
+
 /// Joints are created at free length. If the points deviate by more than this fraction of it, the joint is too far
 /// from its bodies or too small for the resolution of coordinates.
 const REACH: f64 = 1e-3;
@@ -95,7 +98,11 @@ pub(crate) fn read_all(
             kind: kind.name,
             between: joint.pair.names,
             at: joint.at_w,
-            axes: joint.axes,
+            axes: if kind.keys.iter().any(|key| key.starts_with("ax")) {
+                joint.axes
+            } else {
+                NO_AXES
+            },
             realisation: joint.realisation,
             holds: kind.holds - brought,
             spider,

@@ -8,7 +8,9 @@ use serde_json::{Value, json};
 
 use super::inner::{kinds, limits, orientation, within};
 use super::values::Range::{Any, NotNegative, Positive};
-use super::values::{Key, any, array, choice, halves, heading, name, number, numbers, place};
+use super::values::{
+    Key, any, array, choice, halves, heading, name, number, numbers, place, whole,
+};
 
 /// The elements of joints.
 pub(super) fn realisation() -> Key {
@@ -248,6 +250,22 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
             Key(number(Positive), "N·m or N, > 0: largest torque or force at the joint", "none")
         }
         "lag" => Key(number(NotNegative), "s: time constant of the actuator", "0"),
+        "delay" => Key(whole(16), "Samples by which a joint's torque or force is late", "0"),
+        "limits" => Key(
+            numbers(2, Any),
+            "N·m or N, [least, largest] torque or force at a joint, whatever the value",
+            "none",
+        ),
+        "rate_limit" => Key(
+            number(Positive),
+            "N·m/s or N/s, > 0: largest rate of change of a joint's torque or force",
+            "none",
+        ),
+        "period" => Key(
+            number(NotNegative),
+            "s: time between samples of the value of a joint's torque or force",
+            "every step",
+        ),
         "winding" => Key(
             within("winding", tables, &["constant"]),
             "Of a motor: { resistance = ohm, inductance = H, constant = N·m/A, most_current = A }",
@@ -292,6 +310,11 @@ pub(super) fn of_readout(key: &str, tables: &[TableKeys]) -> Option<Key> {
         "about" => Key(choice(&["first", "second"]), "Which axis of a universal joint", ""),
         "quantity" => Key(name(), "For an interaction: a quantity of its law", ""),
         "offset" => Key(number(Any), "rad or m: reading at a rotation or travel of 0", "0"),
+        "sensor" => Key(
+            within("sensor", tables, &[]),
+            "A second column, NAME.sensor: the reading with resolution, noise, sample period and delay",
+            "none",
+        ),
         _ => return None,
     })
 }

@@ -1,5 +1,5 @@
 //! Meaning and type of the keys of nested tables: points, links, shapes, orientations, stiffnesses, spiders, rates,
-//! sines, limits, friction, gears, windings, terms of couplings.
+//! sines, limits, friction, gears, windings, sensors, terms of couplings.
 //!
 //! `(table, key) => schema`, and whole tables of them.
 
@@ -7,7 +7,7 @@ use dbd_scene::vocabulary::TableKeys;
 use serde_json::{Value, json};
 
 use super::values::Range::{Any, NotNegative, Positive};
-use super::values::{Key, any, array, choice, name, number, numbers, object, place};
+use super::values::{Key, any, array, choice, name, number, numbers, object, place, whole};
 
 /// The schema of a key; `None` of one that it does not know.
 pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Value> {
@@ -30,6 +30,7 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         )),
         "rotor" => of_gear(key),
         "winding" => of_winding(key),
+        "sensor" => of_sensor(key),
         "term" => of_term(key),
         _ => None,
     };
@@ -296,6 +297,23 @@ pub(super) fn of_coupling(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "Side on which it acts: only on sums above the offset, as a tendon, or only below it",
             "both",
         ),
+        _ => return None,
+    })
+}
+
+fn of_sensor(key: &str) -> Option<Key> {
+    Some(match key {
+        "counts" => Key(number(Positive), "> 0: counts of a revolution, of a joint_angle", "none"),
+        "resolution" => {
+            Key(number(NotNegative), "In the unit of the read-out: readings are multiples", "0")
+        }
+        "noise" => Key(number(NotNegative), "In its unit: deviation of a sample", "0"),
+        "bias" => Key(number(Any), "In its unit", "0"),
+        "walk" => Key(number(NotNegative), "In its unit: deviation of the bias after 1 s", "0"),
+        "range" => Key(numbers(2, Any), "In its unit: [least, largest] reading", "none"),
+        "period" => Key(number(NotNegative), "s: time between samples", "every step"),
+        "delay" => Key(whole(16), "Samples by which the reading is late", "0"),
+        "seed" => Key(whole(u32::MAX), "Seed of the random numbers", "0"),
         _ => return None,
     })
 }

@@ -40,6 +40,11 @@ pub(super) fn number(range: Range) -> Value {
     schema
 }
 
+/// A whole number up to `most`, or a text.
+pub(super) fn whole(most: u32) -> Value {
+    json!({ "type": ["integer", "string"], "minLength": 1, "minimum": 0, "maximum": most })
+}
+
 /// A fixed number of numbers.
 pub(super) fn numbers(count: usize, range: Range) -> Value {
     array(number(range), count)
