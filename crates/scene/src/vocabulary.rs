@@ -44,8 +44,8 @@ pub fn vocabulary() -> Vec<TableKeys> {
         one("rotor", &[interaction::ROTOR]),
         one("gear", &[interaction::GEAR]),
         one("shaft_friction", &[interaction::SHAFT_FRICTION]),
-        one("winding", &[interaction::WINDING]),
         one("sensor", &[interaction::SENSOR]),
+        one("winding", &[interaction::WINDING, interaction::AXES]),
         one("coupling", &[interaction::COUPLING]),
         one("term", &[interaction::TERM]),
     ];

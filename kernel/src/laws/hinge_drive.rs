@@ -108,7 +108,7 @@ macro_rules! drive {
     ($law:ident, $rubs:literal $(, $friction:ident)?) => {
         impl<P: Geometry> $law<P> {
             #[inline(always)]
-            fn effort(&self) -> Effort<P::Real> {
+            pub(super) fn effort(&self) -> Effort<P::Real> {
                 let Self { gain, servo_stiffness, servo_damping, feed, most, .. } = *self;
                 Effort { gain, stiffness: servo_stiffness, damping: servo_damping, feed, most }
             }
@@ -128,7 +128,7 @@ macro_rules! drive {
             /// Uses an angle near that of the last step: in single precision a large revolution count would leave no digits for
             /// the gear.
             #[inline(always)]
-            fn geared(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Geared<P, $rubs>> {
+            pub(super) fn geared(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Geared<P, $rubs>> {
                 let turn = Coordinate::turn(seen, &self.axis, turns.odd())?;
                 Some(Geared::new(turn, self.gear(), self.friction()))
             }

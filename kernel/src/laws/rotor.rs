@@ -17,6 +17,7 @@ use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::gear::{Gear, Rotor};
 use crate::laws::interaction::{Damper, Springs};
+use crate::laws::machine::{Currents, Machine};
 use crate::laws::servo::Effort;
 use crate::laws::shaft_friction::ShaftFriction;
 use crate::real::Real;
@@ -190,6 +191,42 @@ impl<P: Geometry, const RUBS: bool> Geared<P, RUBS> {
         let inverse = one / (a * d - b * c);
         rotor.rate = (d * right_rate - b * right_effort) * inverse;
         rotor.effort = effort.bounded((a * right_effort - c * right_rate) * inverse);
+    }
+
+    /// [`Self::drive`] by windings at voltages of d and q.
+    #[inline(always)]
+    pub(super) fn drive_wound(
+        &self,
+        (machine, volts): (&Machine<P::Real>, [P::Real; 2]),
+        [h, kick]: [P::Real; 2],
+        rotor: &mut Rotor<P::Real>,
+        currents: &mut Currents<P::Real>,
+    ) {
+        let Self { gear, friction, .. } = self;
+        let from = *currents;
+        let flow =
+            |kick, rate| machine.flow((gear, friction.viscous), volts, ([h, kick], rate), from);
+        (rotor.rate, *currents) = if friction.coulomb == P::Real::ZERO {
+            let flow = flow(kick, rotor.rate);
+            (flow.rate, flow.after)
+        } else {
+            friction.stuck(gear, ([h, kick], self.pulled(h, rotor)), rotor.rate, flow)
+        };
+        rotor.effort = machine.effort(*currents);
+    }
+
+    /// The kick of the gear alone.
+    #[inline(always)]
+    fn pulled(&self, h: P::Real, rotor: &Rotor<P::Real>) -> P::Real {
+        h * -self.pull(rotor) / self.gear.inertia
+    }
+
+    /// [`Self::kick`] without an effort: that of windings follows their currents.
+    #[inline(always)]
+    pub(super) fn kick_wound(&self, h: P::Real, rotor: &mut Rotor<P::Real>) -> P::Real {
+        let kick = self.friction.kick(&self.gear, (h, self.pulled(h, rotor)), rotor);
+        rotor.rate = rotor.rate + kick;
+        kick
     }
 
     /// The coordinate.

@@ -20,11 +20,12 @@ pub(super) struct ShaftFriction<R> {
     pub(super) viscous: R,
 }
 
-/// A rate after a time, and its response to an impulse over inertia in that time.
-struct Flow<R> {
-    rate: R,
-    effort: R,
-    response: R,
+/// A rate after a time, what else follows, as an effort, and the response of the rate to an impulse over inertia in that
+/// time.
+pub(super) struct Flow<R, T = R> {
+    pub(super) rate: R,
+    pub(super) after: T,
+    pub(super) response: R,
 }
 
 #[inline(always)]
@@ -71,18 +72,32 @@ impl<R: Real> ShaftFriction<R> {
         ([h, kick], whole): ([R; 2], R),
         rotor: &mut Rotor<R>,
     ) {
+        let driven = (effort, signal, place);
+        (rotor.rate, rotor.effort) =
+            self.stuck(gear, ([h, kick], whole), rotor.rate, |kick, rate| {
+                self.flow(gear, driven, [h, kick], &Rotor { rate, ..*rotor })
+            });
+    }
+
+    /// A rate and what else follows after the time `h` \[s\] and the kick that friction has reduced from `whole`;
+    /// `flow(kick, rate)` is that without friction.
+    #[inline(always)]
+    pub(super) fn stuck<T>(
+        &self,
+        gear: &Gear<R>,
+        ([h, kick], whole): ([R; 2], R),
+        rate: R,
+        flow: impl Fn(R, R) -> Flow<R, T>,
+    ) -> (R, T) {
         let taken = whole - kick;
         let [least, most] = self.bounds(gear, h);
         let [least, most] = [least - taken, most - taken];
-        let driven = (effort, signal, place);
-        let free = self.flow(gear, driven, [h, kick], rotor);
+        let free = flow(kick, rate);
         let more = clamp(free.rate / free.response, [least, most]);
-        let slowed = Rotor { rate: rotor.rate - more, ..*rotor };
-        let flow = self.flow(gear, driven, [h, kick - more], &slowed);
+        let flow = flow(kick - more, rate - more);
         // A bounded effort responds otherwise, and the last digit of a stop.
         let last = clamp(flow.rate, [least - more, most - more]);
-        rotor.rate = flow.rate - last;
-        rotor.effort = flow.effort;
+        (flow.rate - last, flow.after)
     }
 
     /// The flow of effort and viscous friction, without dry friction.
@@ -103,7 +118,7 @@ impl<R: Real> ShaftFriction<R> {
         if effort.damping == zero {
             // The effort is part of the kick.
             let (rate, _, response) = damped([rotor.rate, kick], [self.viscous, zero], h, inverse);
-            return Flow { rate, effort: rotor.effort, response };
+            return Flow { rate, after: rotor.effort, response };
         }
         let sum = effort.damping + self.viscous;
         let target = effort.damping * towards / sum;
@@ -112,12 +127,12 @@ impl<R: Real> ShaftFriction<R> {
         let asked = constant + effort.damping * (towards - mean);
         let given = effort.bounded(asked);
         if given == asked {
-            return Flow { rate: rate + h * constant * inverse, effort: given, response };
+            return Flow { rate: rate + h * constant * inverse, after: given, response };
         }
         let push = h * given * inverse;
         let pushed = [rotor.rate + push, kick + push];
         let (rate, _, response) = damped(pushed, [self.viscous, zero], h, inverse);
-        Flow { rate, effort: given, response }
+        Flow { rate, after: given, response }
     }
 
     /// The flow with a lag: `(v, τ)' = (kick/h + (τ − b·v)/m, (gain·u + d·(r₀ − v) − τ)/T)`.
@@ -143,7 +158,7 @@ impl<R: Real> ShaftFriction<R> {
         let rate = (d * right_rate - b * right_effort) * inverse;
         let given = effort.bounded((a * right_effort - c * right_rate) * inverse);
         let response = (d * (one + half * brake) - b * (half * back)) * inverse;
-        Flow { rate, effort: given, response }
+        Flow { rate, after: given, response }
     }
 }
 

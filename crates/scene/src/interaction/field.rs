@@ -80,8 +80,11 @@ impl<'a, 't> Reading<'a, 't> {
 
     /// The index of an input.
     fn signal(&mut self, field: &Field) -> Option<u32> {
-        match self.of {
-            Of::Drive(_, input, _) | Of::Winch(_, input, _) => return u32::try_from(input).ok(),
+        match &self.of {
+            Of::Drive(_, input, constants) | Of::Winch(_, input, constants) => {
+                let other = constants.get(field.name).map(|row| row as u32);
+                return other.or_else(|| u32::try_from(*input).ok());
+            }
             // No input has this index: it is not driven.
             Of::Joint(_) | Of::Spring(..) => return Some(u16::MAX.into()),
             Of::Itself | Of::Coupling(..) => {}
@@ -211,7 +214,7 @@ impl FieldSource for Reading<'_, '_> {
 }
 
 /// The name of an input.
-struct InputName<'a>(&'a [String]);
+pub(super) struct InputName<'a>(pub(super) &'a [String]);
 
 impl Kind for InputName<'_> {
     type Output = u32;

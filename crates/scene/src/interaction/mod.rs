@@ -9,16 +9,17 @@ mod of_drives;
 mod of_joints;
 mod of_springs;
 mod of_winches;
+mod of_windings;
 
 pub(crate) use of_chains::{SENSOR, has_chain, sensor_name};
 pub(crate) use of_couplings::{KEYS as COUPLING, TERM};
-pub(crate) use of_drives::{
-    Driven, GEAR, KEYS as DRIVE, SHAFT_FRICTION, TYPE as DRIVE_TYPE, WINDING,
-};
+pub(crate) use of_drives::{Driven, GEAR, KEYS as DRIVE, SHAFT_FRICTION, TYPE as DRIVE_TYPE};
 pub(crate) use of_joints::{FRICTION, LIMITS, ROTOR};
 pub(crate) use of_winches::{
     KEYS as WINCH, check as check_lengths, drive_of as drive_of_length, range_of as range_of_length,
 };
+
+pub(crate) use of_windings::{AXES, WINDING};
 
 use std::sync::Arc;
 
@@ -32,6 +33,7 @@ use crate::file_lines::LawPlace;
 use crate::free_length::winches;
 use crate::interaction::field::{Of, Reading};
 use crate::interaction::of_couplings::Coupled;
+use crate::interaction::of_drives::OtherInputs;
 use crate::interaction::of_joints::{OF_JOINTS, OfJoint, keys_of, law_of, softened};
 use crate::joints::{self, JointPlace};
 use crate::laws::{KnownLaw, SourceRows, known_laws};
@@ -291,13 +293,17 @@ fn of_drives<'t>(
     assembly: &Assembly,
     rows: &mut Rows<'t>,
 ) -> Result<(), SceneError> {
+    let mut inputs = OtherInputs { names: rows.inputs.clone(), types: Vec::new() };
+    for table in root.list("input")? {
+        inputs.types.push(table.optional("type", Text::Any)?.unwrap_or_default());
+    }
     for (number, table) in root.list("input")?.into_iter().enumerate() {
-        if table.optional("type", Text::Any)?.as_deref() != Some(DRIVE_TYPE) {
+        if inputs.types[number] != DRIVE_TYPE {
             continue;
         }
         table.only(&[drive::INPUT, &drive::KEYS, DRIVE])?;
         let driven = Driven::read(&table, joints, elements)?;
-        let (law, constants) = driven.law(&table)?;
+        let (law, constants) = driven.law(&table, &inputs)?;
         let Some(law) = rows.known.iter().position(|known| known.name == law) else { continue };
         let place = driven.place;
         let name = table.required("name", Text::Name)?;

@@ -5,6 +5,8 @@
 //! ratio.
 
 use crate::error::SceneError;
+use crate::interaction::field::InputName;
+use crate::interaction::of_windings::{AxesWinding, Winding, has_axes};
 use crate::joints::JointPlace;
 use crate::known::freedom;
 use crate::target::Elements;
@@ -15,8 +17,8 @@ pub(crate) const TYPE: &str = "drive";
 
 /// The keys of a drive.
 pub(crate) const KEYS: &[&str] = &[
-    "target", "freedom", "mode", "kp", "kd", "most", "lag", "winding", "rotor", "ratio", "gear",
-    "friction",
+    "target", "freedom", "mode", "kp", "kd", "most", "lag", "winding", "d_input", "rotor", "ratio",
+    "gear", "friction",
 ];
 
 /// The keys of the friction of its rotor.
@@ -25,12 +27,9 @@ pub(crate) const SHAFT_FRICTION: &[&str] = &["coulomb", "viscous"];
 /// The keys of its gear.
 pub(crate) const GEAR: &[&str] = &["stiffness", "damping", "play"];
 
-/// The keys of its winding.
-pub(crate) const WINDING: &[&str] = &["resistance", "inductance", "constant", "most_current"];
-
 /// The quantity of its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Mode {
+pub(super) enum Mode {
     Position,
     Velocity,
     Torque,
@@ -51,6 +50,12 @@ impl Mode {
     fn is_servo(self) -> bool {
         matches!(self, Self::Position | Self::Velocity)
     }
+}
+
+/// Names and types of all inputs, in the scene's order.
+pub(super) struct OtherInputs {
+    pub(super) names: Vec<String>,
+    pub(super) types: Vec<String>,
 }
 
 /// Units of a drive about or along an axis.
@@ -110,7 +115,11 @@ impl<'j> Driven<'j> {
     }
 
     /// Its law and that law's constants.
-    pub(super) fn law(&self, table: &Table<'_>) -> Result<(&'static str, Constants), SceneError> {
+    pub(super) fn law(
+        &self,
+        table: &Table<'_>,
+        inputs: &OtherInputs,
+    ) -> Result<(&'static str, Constants), SceneError> {
         let mut constants = Constants::default();
         let has_rotor = table.has("rotor");
         if !has_rotor && table.has("friction") {
@@ -127,6 +136,18 @@ impl<'j> Driven<'j> {
             }
         }
         let ratio = self.ratio(table, has_rotor)?;
+        self.compatible(table)?;
+        if has_axes(table)? {
+            self.axes(table, (ratio, inputs), &mut constants)?;
+            self.rotor(table, ratio, &mut constants)?;
+            self.friction(table, ratio, &mut constants)?;
+            return Ok(("hinge-drive-dq", constants));
+        }
+        if table.has("d_input") {
+            let help =
+                "remove it: only a winding with `inductance_d` and `inductance_q` has a voltage d";
+            return Err(table.refuse_key("d_input", "is not compatible with this `winding`", help));
+        }
         self.effort(table, ratio, has_rotor, &mut constants)?;
         if has_rotor {
             self.rotor(table, ratio, &mut constants)?;
@@ -161,15 +182,8 @@ impl<'j> Driven<'j> {
         Ok(given.unwrap_or(1.0))
     }
 
-    /// Control law and effort limit.
-    fn effort(
-        &self,
-        table: &Table<'_>,
-        ratio: f64,
-        has_rotor: bool,
-        constants: &mut Constants,
-    ) -> Result<(), SceneError> {
-        let units = self.units();
+    /// Rejects keys of other modes.
+    fn compatible(&self, table: &Table<'_>) -> Result<(), SceneError> {
         let own = match self.mode {
             Mode::Position => &["kp", "kd", "lag"][..],
             Mode::Velocity => &["kd", "lag"],
@@ -190,6 +204,53 @@ impl<'j> Driven<'j> {
                 return Err(table.refuse_key(key, "is not compatible with this `mode`", help));
             }
         }
+        Ok(())
+    }
+
+    /// A winding in rotor axes.
+    fn axes(
+        &self,
+        table: &Table<'_>,
+        (ratio, inputs): (f64, &OtherInputs),
+        constants: &mut Constants,
+    ) -> Result<(), SceneError> {
+        if !self.turns {
+            let help = "use a winding with a `constant`: one in rotor axes drives a rotation";
+            return Err(table.refuse_key("winding", "is in rotor axes", help));
+        }
+        if table.has("most") {
+            let help =
+                "give `most_current` of the winding, which limits the amplitude of both currents";
+            return Err(table.refuse_key("most", "is not compatible with rotor axes", help));
+        }
+        if !table.has("rotor") {
+            return Err(table.missing("rotor", "the inertia of the motor's rotor in kg·m²"));
+        }
+        table.required("winding", AxesWinding(self.mode))?.add_to(ratio, constants);
+        let d_input = table.optional("d_input", InputName(&inputs.names))?;
+        if let Some(row) = d_input
+            && inputs.types.get(row as usize).map(String::as_str) != Some("signal")
+        {
+            let help =
+                "name an input of the type \"signal\", the voltage d in V or the current d in A";
+            return Err(table.refuse_value("d_input", "is not of the type \"signal\"", help));
+        }
+        // No input has the other index: 0.
+        constants.add("d_input", d_input.map_or(u16::MAX.into(), f64::from));
+        let lag = table.optional("lag", Number::not_negative("s"))?;
+        constants.add("lag", lag.unwrap_or(0.0));
+        Ok(())
+    }
+
+    /// Control law and effort limit.
+    fn effort(
+        &self,
+        table: &Table<'_>,
+        ratio: f64,
+        has_rotor: bool,
+        constants: &mut Constants,
+    ) -> Result<(), SceneError> {
+        let units = self.units();
         let mut most = table.optional("most", Number::positive(units.effort))?;
         let mut lag = table.optional("lag", Number::not_negative("s"))?.unwrap_or(0.0);
         if self.mode.is_servo() {
@@ -306,58 +367,5 @@ impl Constants {
     /// The constant of a field.
     pub(super) fn get(&self, field: &str) -> Option<f64> {
         self.0.iter().find(|(known, _)| *known == field).map(|(_, number)| *number)
-    }
-}
-
-/// The winding of a motor, at its shaft.
-struct OfWinding {
-    /// \[Ω\]
-    resistance: f64,
-    /// \[H\]
-    inductance: f64,
-    /// \[N·m/A, V·s\]
-    constant: f64,
-    /// \[A\]
-    most_current: Option<f64>,
-}
-
-struct Winding(Mode);
-
-impl crate::text::Kind for Winding {
-    type Output = OfWinding;
-
-    fn expected(&self) -> String {
-        "{ resistance = …, inductance = …, constant = … } in ohm, H and N·m/A".into()
-    }
-
-    fn read(&self, value: &crate::text::Value<'_>) -> Result<OfWinding, SceneError> {
-        let table = value.table(&self.expected())?;
-        table.only(&[WINDING])?;
-        let constant = table.required("constant", Number::any("N·m/A"))?;
-        if constant == 0.0 {
-            let help = "give the torque at the motor's shaft per current in N·m/A";
-            return Err(table.refuse_value("constant", "is 0", help));
-        }
-        let most_current = table.optional("most_current", Number::positive("A"))?;
-        if self.0 == Mode::Current {
-            for key in ["resistance", "inductance"] {
-                if table.has(key) {
-                    let help =
-                        "remove it: only in the mode \"voltage\" does the current depend on it";
-                    return Err(table.refuse_key(
-                        key,
-                        "has no effect in the mode \"current\"",
-                        help,
-                    ));
-                }
-            }
-            return Ok(OfWinding { resistance: 0.0, inductance: 0.0, constant, most_current });
-        }
-        Ok(OfWinding {
-            resistance: table.required("resistance", Number::positive("ohm"))?,
-            inductance: table.optional("inductance", Number::not_negative("H"))?.unwrap_or(0.0),
-            constant,
-            most_current,
-        })
     }
 }

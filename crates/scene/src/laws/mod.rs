@@ -80,6 +80,7 @@ pub fn known_laws() -> Vec<KnownLaw> {
         KnownLaw::of::<laws::SlideSensor>("dbd_kernel::laws::SlideSensor"),
         KnownLaw::of::<laws::HingeActuator>("dbd_kernel::laws::HingeActuator"),
         KnownLaw::of::<laws::SlideActuator>("dbd_kernel::laws::SlideActuator"),
+        KnownLaw::of::<laws::HingeDriveDq>("dbd_kernel::laws::HingeDriveDq"),
     ];
     let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
     linked_laws().into_iter().chain(own.iter().cloned()).for_each(|law| put(&mut known, law));

@@ -6,7 +6,7 @@ use dbd_scene::Realisation;
 use dbd_scene::vocabulary::{TableKeys, colours};
 use serde_json::{Value, json};
 
-use super::inner::{kinds, limits, orientation, within};
+use super::inner::{kinds, limits, orientation, winding, within};
 use super::values::Range::{Any, NotNegative, Positive};
 use super::values::{
     Key, any, array, choice, halves, heading, name, number, numbers, place, whole,
@@ -267,9 +267,15 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
             "every step",
         ),
         "winding" => Key(
-            within("winding", tables, &["constant"]),
-            "Of a motor: { resistance = ohm, inductance = H, constant = N·m/A, most_current = A }",
+            winding(tables),
+            "Of a motor: { resistance = ohm, inductance = H, constant = N·m/A, most_current = A }; in rotor axes \
+             { resistance = ohm, inductance_d = H, inductance_q = H, flux = V·s, pole_pairs = …, most_current = A }",
             "none",
+        ),
+        "d_input" => Key(
+            name(),
+            "The name of an input of the type \"signal\": voltage d or current d of a winding in rotor axes",
+            "0 V, 0 A",
         ),
         "rotor" => Key(
             number(Positive),

@@ -55,6 +55,14 @@ pub(super) fn limits(tables: &[TableKeys]) -> Value {
     schema
 }
 
+/// A winding of one current, or one in rotor axes.
+pub(super) fn winding(tables: &[TableKeys]) -> Value {
+    let mut schema = within("winding", tables, &[]);
+    let forms: [&[&str]; 2] = [&["constant"], &["flux", "pole_pairs"]];
+    schema["oneOf"] = json!(forms.map(|keys| json!({ "required": keys })));
+    schema
+}
+
 /// One of the forms of an orientation.
 pub(super) fn orientation(tables: &[TableKeys]) -> Value {
     let mut schema = within("orientation", tables, &[]);
@@ -336,7 +344,21 @@ fn of_winding(key: &str) -> Option<Key> {
         "resistance" => Key(number(Positive), "ohm, > 0; not for the mode \"current\"", ""),
         "inductance" => Key(number(NotNegative), "H; not for the mode \"current\"", "0"),
         "constant" => Key(number(Any), "N·m/A, not 0: torque of the motor's shaft per current", ""),
-        "most_current" => Key(number(Positive), "A, > 0: largest current", "none"),
+        "most_current" => Key(
+            number(Positive),
+            "A, > 0: largest current; in rotor axes largest amplitude of both currents",
+            "none",
+        ),
+        "inductance_d" => Key(number(Positive), "H, > 0: inductance along the magnets", ""),
+        "inductance_q" => Key(
+            number(Positive),
+            "H, > 0: inductance a quarter of a period ahead of the magnets",
+            "",
+        ),
+        "flux" => Key(number(NotNegative), "V·s: flux linkage of the magnets", ""),
+        "pole_pairs" => {
+            Key(json!({ "type": "integer", "minimum": 1 }), "Half the rotor's number of poles", "")
+        }
         _ => return None,
     })
 }

@@ -1,9 +1,9 @@
 use super::*;
 use dbd_kernel::laws::{
     Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop, Hinge,
-    HingeDamper, HingeDrive, HingeDriveFriction, HingeFriction, HingeServo, HingeSpring, HingeStop,
-    PlaneContact, SlideDrive, SlideDriveFriction, SlideFriction, SlideServo, SoftDistanceStop,
-    SoftEndStop, SoftHingeStop, SphereContact, Springs, WheelContact,
+    HingeDamper, HingeDrive, HingeDriveDq, HingeDriveFriction, HingeFriction, HingeServo,
+    HingeSpring, HingeStop, PlaneContact, SlideDrive, SlideDriveFriction, SlideFriction,
+    SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop, SphereContact, Springs, WheelContact,
 };
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{BodyIndex, InputIndex, Real as _};
@@ -367,5 +367,31 @@ fn drives_keep_what_laws_promise() {
             viscous,
         };
         hold(&travel, poses).unwrap();
+    }
+}
+
+#[test]
+fn a_machine_keeps_what_laws_promise() {
+    for (play, damping, resistance) in [(0.0, 0.0, 1.2), (0.0, 0.7, 0.0), (0.02, 0.7, 1.2)] {
+        let turn = HingeDriveDq {
+            bodies: BODIES,
+            axis: hinge(),
+            input: InputIndex(0),
+            d_input: InputIndex(1),
+            resistance,
+            inductance_d: 2e-4,
+            inductance_q: 3e-4,
+            flux: 0.01,
+            poles: 40.0,
+            most_current: 20.0,
+            lag: 0.0,
+            inertia: 0.05,
+            stiffness: 2e3,
+            damping,
+            play,
+            coulomb: 0.3,
+            viscous: 0.02,
+        };
+        hold(&turn, Poses::default()).unwrap();
     }
 }
