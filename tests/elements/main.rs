@@ -1,6 +1,7 @@
 //! Elements that real plants have against closed forms and references of their own: stops, tables, friction, contact,
 //! drives. The page `docs/elements.md` has the values.
 
+mod axes;
 mod bushing;
 mod chains;
 mod contacts;

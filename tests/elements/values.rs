@@ -7,7 +7,7 @@ use dbd_tests::page::{block, table};
 use nalgebra::{Matrix6, Vector6};
 
 use crate::drives::{ROTOR, period, wheel};
-use crate::{contacts, couplings, instance, mounts, shaft, soft, value, winches};
+use crate::{axes, contacts, couplings, instance, mounts, shaft, soft, value, winches};
 
 const G: f64 = 9.81;
 
@@ -347,8 +347,14 @@ fn cases() -> Vec<Case> {
 fn elements_reach_their_values() {
     let mut rows = Vec::new();
     let mut off = String::new();
-    let further =
-        [contacts::cases(), mounts::cases(), soft::cases(), winches::cases(), shaft::cases()];
+    let further = [
+        contacts::cases(),
+        mounts::cases(),
+        soft::cases(),
+        winches::cases(),
+        shaft::cases(),
+        axes::cases(),
+    ];
     for case in cases().into_iter().chain(further.into_iter().flatten()) {
         let steps = [case.step, case.step / 2.0, case.step / 4.0];
         let found = steps.map(|step| (case.found)(step));

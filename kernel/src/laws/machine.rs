@@ -139,6 +139,9 @@ impl<R: Real> Machine<R> {
         Wrong::unless(d > zero, "inductance_d", "is not positive", positive)?;
         Wrong::unless(q > zero, "inductance_q", "is not positive", positive)?;
         Wrong::unless(self.flux >= zero, "flux", "is negative", "a flux linkage ≥ 0")?;
+        let drives = self.flux > zero || d != q;
+        let other = "a flux linkage > 0, or different inductances";
+        Wrong::unless(drives, "flux", "is 0 with equal inductances", other)?;
         Wrong::unless(self.poles != zero, "poles", "is 0", "a number other than 0")?;
         let most = self.most_current > zero;
         Wrong::unless(most, "most_current", "is not positive", "a current > 0")

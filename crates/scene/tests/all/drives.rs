@@ -302,3 +302,95 @@ fn friction_of_a_shaft_is_that_of_its_law_at_the_joint() {
         assert!(parts.iter().all(|part| flat.contains(part)), "{keys}: {said}");
     }
 }
+
+const MACHINE: &str = "target = \"pivot\"\nmode = \"voltage\"\nratio = 10\nrotor = 1e-5\n\
+                       gear = { stiffness = 500, damping = 1 }\nd_input = \"ud\"\nvalue = \"12 V\"\n\
+                       winding = { resistance = 2, inductance_d = \"4 mH\", inductance_q = \"6 mH\", \
+                       flux = \"20 mV*s\", pole_pairs = 5, most_current = 3 }";
+
+const SIGNAL: &str = "[[input]]\nname = \"ud\"\ntype = \"signal\"\nvalue = -2\n";
+
+/// A winding in rotor axes is one law, whose pole pairs are times the ratio.
+#[test]
+fn a_winding_in_rotor_axes_is_a_law() {
+    let keyed = scene(&(drive(MACHINE) + SIGNAL)).unwrap();
+    assert_eq!((keyed.inputs[0].unit, dbd_scene::interactions(&keyed)[0].law), ("V", "hinge-drive-dq"));
+    let of_law = "[[interaction]]\nlaw = \"hinge-drive-dq\"\nbetween = [\"slider\", \"lever\"]\naxis = [0, 0, 1]\n\
+                  input = \"u\"\nd_input = \"ud\"\nresistance = 2\ninductance_d = 0.004\ninductance_q = 0.006\n\
+                  flux = 0.02\npoles = 50\nmost_current = 3\ninertia = 0.001\nstiffness = 500\ndamping = 1";
+    let other = "[[input]]\nname = \"u\"\ntype = \"signal\"\nvalue = 12\n";
+    let listed = scene(&format!("{other}{SIGNAL}{of_law}")).unwrap();
+    let of = |scene: &Scene| {
+        let mut plant = Plant::new(&scene.model, Leapfrog, 1e-4).unwrap();
+        plant.advance(100).ok().unwrap();
+        plant.state().hash()
+    };
+    assert_eq!(of(&keyed), of(&listed));
+    // Without an input of d its voltage is 0.
+    let alone = scene(&drive(&MACHINE.replace("d_input = \"ud\"\n", ""))).unwrap();
+    let zero = scene(&(drive(MACHINE) + &SIGNAL.replace("-2", "0"))).unwrap();
+    let rates = [&alone, &zero].map(|scene| {
+        let mut plant = Plant::new(&scene.model, Leapfrog, 1e-4).unwrap();
+        plant.advance(100).ok().unwrap();
+        plant.state().bodies[1].angular_velocity
+    });
+    assert_eq!(rates[0], rates[1]);
+    assert!(rates[0].z > 0.0, "{rates:?}");
+}
+
+#[test]
+fn what_is_no_winding_in_rotor_axes_is_refused() {
+    let with = |from: &str, to: &str| {
+        assert!(MACHINE.contains(from), "{from}");
+        drive(&MACHINE.replace(from, to)) + SIGNAL
+    };
+    let slide = MACHINE.replace("pivot", "guide").replace("ratio = 10", "ratio = \"10 rad/m\"");
+    let current = MACHINE.replace("voltage", "current").replace("12 V", "1 A");
+    for (text, parts) in [
+        (with("inductance_d = \"4 mH\"", "inductance_d = 0"), ["inductance_d", "> 0"]),
+        (with("inductance_q = \"6 mH\"", "inductance_q = -1"), ["inductance_q", "> 0"]),
+        (with("inductance_q = \"6 mH\", ", ""), ["inductance_q", "add"]),
+        (with("resistance = 2", "resistance = 0"), ["resistance", "> 0"]),
+        (with("flux = \"20 mV*s\"", "flux = -1"), ["flux", "≥ 0"]),
+        (with("pole_pairs = 5", "pole_pairs = 0"), ["pole_pairs", "whole number"]),
+        (with("pole_pairs = 5", "pole_pairs = 2.5"), ["pole_pairs", "whole number"]),
+        (with("pole_pairs = 5", "poles = 5"), ["poles", "pole_pairs"]),
+        (with("most_current = 3", "most_current = 0"), ["most_current", "> 0"]),
+        (with("most_current = 3", "constant = 1"), ["constant", "no key"]),
+        (with("d_input = \"ud\"", "d_input = \"du\""), ["names no input", "ud"]),
+        (with("d_input = \"ud\"", "d_input = \"motor\""), ["d_input", "not of the type"]),
+        (with("rotor = 1e-5\n", ""), ["gear", "rotor"]),
+        (with("ratio = 10", "most = 1"), ["most", "most_current"]),
+        (with("ratio = 10", "lag = 1"), ["lag", "inductance"]),
+        (with("mode = \"voltage\"", "mode = \"velocity\"\nkd = 1"), ["winding", "voltage"]),
+        (drive(&slide) + SIGNAL, ["winding", "rotation"]),
+        (drive(&current) + SIGNAL, ["resistance", "voltage"]),
+        (
+            with("inductance_q = \"6 mH\", flux = \"20 mV*s\"", "inductance_q = 0.004, flux = 0"),
+            ["flux", "equal inductances"],
+        ),
+        (
+            with("inductance_d = \"4 mH\", inductance_q = \"6 mH\", flux = \"20 mV*s\", pole_pairs = 5", "constant = 1"),
+            ["d_input", "inductance_d"],
+        ),
+    ] {
+        let said = scene(&text).err().unwrap_or_default();
+        assert!(parts.iter().all(|part| said.contains(part)), "{parts:?}\n{text}\n{said}");
+    }
+    let law = |more: &str| {
+        format!(
+            "{SIGNAL}[[interaction]]\nlaw = \"hinge-drive-dq\"\nbetween = [\"slider\", \"lever\"]\n\
+             axis = [0, 0, 1]\ninput = \"ud\"\nd_input = \"ud\"\ninertia = 1\nstiffness = 1\n{more}"
+        )
+    };
+    let wound = "inductance_d = 1\ninductance_q = 1\nflux = 1\npoles = 1";
+    scene(&law(wound)).unwrap();
+    for (from, to, part) in [
+        ("inductance_d = 1", "inductance_d = 0", "inductance_d"),
+        ("flux = 1", "flux = 0", "equal inductances"),
+        ("poles = 1", "poles = 0", "poles"),
+    ] {
+        let said = scene(&law(&wound.replace(from, to))).err().unwrap_or_default();
+        assert!(said.contains(part), "{to}: {said}");
+    }
+}

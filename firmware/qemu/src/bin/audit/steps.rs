@@ -7,6 +7,7 @@
 use dbd_kernel::laws::{
     Bushing, BushingCurves, BushingMatrix, BushingMaxwell, Coupling, DistanceDamper,
     DistanceSpring, DistanceStop, DistanceWinch, EndStop, HingeActuator, HingeDamper, HingeDrive,
+    HingeDriveDq,
     HingeDriveFriction, HingeFriction, HingeSensor, HingeServo, HingeSpring, HingeStop,
     PlaneContact, SlideActuator, SlideDrive, SlideDriveFriction, SlideFriction, SlideSensor,
     SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop, SphereContact, WheelContact,
@@ -80,7 +81,7 @@ type OfContacts<P> = Lawful<
     ),
 >;
 
-/// Couplings and mounts.
+/// Couplings, mounts, windings in rotor axes.
 type OfMounts<P> = Lawful<
     P,
     (
@@ -89,6 +90,7 @@ type OfMounts<P> = Lawful<
         [BushingCurves<P>; 1],
         [BushingMatrix<P>; 1],
         [BushingMaxwell<P>; 1],
+        [HingeDriveDq<P>; 1],
     ),
 >;
 
