@@ -90,8 +90,8 @@ fn a_locked_rotor_has_two_circuits() {
     let exact = locked_currents(2e-3);
     let steps = [1e-3, 5e-4, 2.5e-4, 1.25e-4];
     for axis in [0, 1] {
-        let errors = steps
-            .map(|step| (currents_at(&locked(), step, 2e-3, "f64")[axis] - exact[axis]).abs());
+        let errors =
+            steps.map(|step| (currents_at(&locked(), step, 2e-3, "f64")[axis] - exact[axis]).abs());
         assert!((1.9..2.2).contains(&order(&errors)), "{axis}: {errors:?}");
         assert!(errors[3] < 2e-3 * exact[axis].abs(), "{axis}: {errors:?}");
     }
@@ -200,12 +200,14 @@ fn a_shorted_machine_makes_no_energy() {
             let text = voltage([0.0; 2])
                 .replace("resistance = 0.5", &format!("resistance = {resistance}"))
                 .replace("stiffness = 200, damping = 0.5", "stiffness = 1e-3, damping = 0")
-                .replace("position = [0, 0, 0]", "position = [0, 0, 0]\nangular_velocity = [0, 0, 300]");
+                .replace(
+                    "position = [0, 0, 0]",
+                    "position = [0, 0, 0]\nangular_velocity = [0, 0, 300]",
+                );
             let mut run = instance(&text, 5e-3, precision);
             let energy = |run: &Instance| {
                 let ([d, q], rate) = (currents(run), value(run, "rate"));
-                0.5 * 8e-3 * rate * rate
-                    + 0.75 * (INDUCTANCES[0] * d * d + INDUCTANCES[1] * q * q)
+                0.5 * 8e-3 * rate * rate + 0.75 * (INDUCTANCES[0] * d * d + INDUCTANCES[1] * q * q)
             };
             run.advance(1).unwrap();
             let mut last = energy(&run);
@@ -253,7 +255,8 @@ fn currents_as_inputs_give_their_effort() {
 /// Friction of the shaft holds a machine exactly; its windings then are two circuits.
 #[test]
 fn friction_holds_a_machine() {
-    let keys = |coulomb: &str| format!("{WINDING}\n{ROTOR}\nfriction = {{ coulomb = \"{coulomb}\" }}");
+    let keys =
+        |coulomb: &str| format!("{WINDING}\n{ROTOR}\nfriction = {{ coulomb = \"{coulomb}\" }}");
     let mut run = instance(&machine("voltage", &keys("3 N*m"), VOLTS), 2e-4, "f64");
     run.advance_to(0.1).unwrap();
     assert_eq!((value(&run, "rate"), value(&run, "angle")), (0.0, 0.0));

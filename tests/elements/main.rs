@@ -10,6 +10,7 @@ mod couplings;
 mod creep;
 mod drives;
 mod examples;
+mod loaded;
 mod mounts;
 mod relaxing;
 mod shaft;

@@ -41,6 +41,7 @@ pub fn vocabulary() -> Vec<TableKeys> {
         one("start", &[start::KEYS]),
         one("limits", &[interaction::LIMITS]),
         one("friction", &[interaction::FRICTION]),
+        one("friction_load", &[interaction::LOAD]),
         one("rotor", &[interaction::ROTOR]),
         one("gear", &[interaction::GEAR]),
         one("shaft_friction", &[interaction::SHAFT_FRICTION]),

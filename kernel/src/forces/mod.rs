@@ -156,7 +156,8 @@ pub(crate) fn evaluate<P: Geometry, T: Terms<P>, D: Dampers>(
     }
     if !<LawsIn<P, T> as Laws<P>>::EMPTY {
         let here = laws::Instant { frames: &*frames, bodies, signals };
-        let act = laws::Act { settle: at == At::Boundary, advance, damped: D::ACT };
+        let groups = &Groups { model, places, rests };
+        let act = laws::Act { settle: at == At::Boundary, advance, damped: D::ACT, groups };
         let done = model.laws.act(here, known, act, wrenches);
         done.map_err(|row| Cause::Undefined { law: LawIndex(row as u16) })?;
     }
@@ -210,6 +211,22 @@ pub(crate) fn force_pair<P: Geometry, T: Terms<P>, D: Dampers>(
             two_points::<P, T, D, _>(model, model.universals, group, &end_a, &end_b)
         }
         _ => None,
+    }
+}
+
+/// The forces of the groups of a model at a pose, for laws that bear one.
+struct Groups<'s, 'm, P: Geometry, T: Terms<P>> {
+    model: &'s ModelRef<'m, P, T>,
+    places: Places<'s, P>,
+    rests: &'s [P::Rest],
+}
+
+impl<P: Geometry, T: Terms<P>> laws::GroupForces<P> for Groups<'_, '_, P, T> {
+    fn force(&self, group: u16) -> P::Vector {
+        let Some(group) = self.model.groups.get(usize::from(group)) else { return P::Vector::ZERO };
+        let known = (&[][..], self.rests);
+        let force_pair = force_pair::<P, T, DampersLeft>(self.model, self.places, known, group);
+        force_pair.map_or(P::Vector::ZERO, |force_pair| -force_pair.force)
     }
 }
 

@@ -8,28 +8,10 @@ use crate::index::BodyIndex;
 use crate::laws::branch::Branch;
 use crate::laws::end::Seen;
 use crate::laws::kind::{Field, FieldSink, FieldSource};
+use crate::laws::several::Several;
 use crate::real::Real;
 use crate::space::Linear as _;
 use crate::words::{WordSource, WordVisitor, Words};
-
-/// A fixed number of items: `[(); 2]` has two.
-pub trait Several: 'static {
-    /// The number.
-    const COUNT: usize;
-    /// An array of `T`.
-    type Of<T: Copy + Send + Sync + 'static>: Copy + AsRef<[T]> + AsMut<[T]> + Send + Sync + 'static;
-    /// An array of equal items.
-    fn of<T: Copy + Send + Sync + 'static>(value: T) -> Self::Of<T>;
-}
-
-impl<const N: usize> Several for [(); N] {
-    const COUNT: usize = N;
-    type Of<T: Copy + Send + Sync + 'static> = [T; N];
-    #[inline(always)]
-    fn of<T: Copy + Send + Sync + 'static>(value: T) -> [T; N] {
-        [value; N]
-    }
-}
 
 /// The memory of a law without memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -232,6 +214,8 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     const SLIPS: bool = Self::ADVANCES;
     /// Whether it has an internal degree of freedom, which damper passes advance; it [`Self::ADVANCES`] then.
     const INNER: bool = false;
+    /// Whether [`Self::bear`] gives it the force of a group: costs an evaluation of that group.
+    const BEARS: bool = false;
     /// Whether its dampers are those of a drive: their work counts as that of inputs.
     const DRIVES: bool = false;
     /// Whether [`Self::force_pair`] depends on inputs: setting an input then costs an evaluation. Dampers and drives may
@@ -248,6 +232,17 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     /// repeated without time passing.
     #[inline(always)]
     fn settle(&self, _seen: &Seen<'_, P>, _state: &mut Self::State) {}
+
+    /// The group of the model whose force [`Self::bear`] gives it.
+    #[inline(always)]
+    fn group(&self) -> u16 {
+        u16::MAX
+    }
+
+    /// Updates its memory by the force \[N\] of the springs of [`Self::group`] between its bodies, world axes, at the
+    /// boundary of a step, before [`Self::advance`] and [`Self::settle`]; a function of the pose only.
+    #[inline(always)]
+    fn bear(&self, _seen: &Seen<'_, P>, _force: P::Vector, _state: &mut Self::State) {}
 
     /// Advances its memory by a step of `h` \[s\], at the pose at its end, once per step: for integrated quantities.
     /// Only schemes of one evaluation per step do this.

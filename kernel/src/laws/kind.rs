@@ -34,7 +34,7 @@ pub struct Field {
 pub trait FieldSource {
     /// A number in the field's SI unit.
     fn number(&mut self, field: &Field) -> Option<f64>;
-    /// A whole number; for the kind `signal` the row of an input.
+    /// A whole number; for the kind `signal` the row of an input, for the kind `joint` that of a group.
     fn count(&mut self, field: &Field) -> Option<u32>;
     /// \[m\] a point of A and a point of B, each in the axes of its body.
     fn points(&mut self, field: &Field) -> Option<[[f64; 3]; 2]>;
@@ -160,6 +160,29 @@ impl Kind for Signal {
     }
     fn write_to(of: &InputIndex, field: &Field, sink: &mut dyn FieldSink) {
         sink.count(field, u32::from(of.0));
+    }
+}
+
+/// A group of the model whose force the law bears: `u16`, see
+/// [`Interaction::group`](crate::laws::Interaction::group).
+#[derive(Clone, Copy, Debug)]
+pub struct JointGroup;
+
+impl Kind for JointGroup {
+    type In<P: Geometry> = u16;
+    const NAME: &'static str = "joint";
+
+    fn rounded<P: Geometry>(of: &u16) -> u16 {
+        *of
+    }
+    fn visit<P: Geometry>(of: &u16, visitor: &mut dyn WordVisitor) {
+        visitor.word(Word::I32(i32::from(*of)));
+    }
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<u16> {
+        source.count(field).and_then(|group| u16::try_from(group).ok())
+    }
+    fn write_to(of: &u16, field: &Field, sink: &mut dyn FieldSink) {
+        sink.count(field, u32::from(*of));
     }
 }
 

@@ -6,8 +6,9 @@ use crate::elements::share::Share;
 use crate::force_pair::Wrench;
 use crate::geometry::Geometry;
 use crate::laws::end::Instant;
-use crate::laws::interaction::{Interaction, Need, Several, SharesOf};
+use crate::laws::interaction::{Interaction, Need, SharesOf};
 use crate::laws::row::{Act, DamperPass, Row};
+use crate::laws::several::Several;
 use crate::laws::slice;
 use crate::words::{WordSource, WordVisitor};
 
@@ -42,7 +43,7 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
         &self,
         at: Instant<'_, P>,
         states: &mut Self::States,
-        act: Act<P::Real>,
+        act: Act<'_, P>,
         wrenches: &mut [Wrench<P::Space>],
     ) -> Result<(), usize>;
     /// Applies the dampers row by row, in descending order with `reverse`.
@@ -109,7 +110,7 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
         &self,
         at: Instant<'_, P>,
         states: &mut Self::States,
-        act: Act<P::Real>,
+        act: Act<'_, P>,
         wrenches: &mut [Wrench<P::Space>],
     ) -> Result<(), usize> {
         slice::act::<P, T>(self, at, states, act, wrenches)
@@ -190,7 +191,7 @@ macro_rules! list {
                 &self,
                 at: Instant<'_, P>,
                 states: &mut Self::States,
-                act: Act<P::Real>,
+                act: Act<'_, P>,
                 wrenches: &mut [Wrench<P::Space>],
             ) -> Result<(), usize> {
                 let mut before = 0;

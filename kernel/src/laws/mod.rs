@@ -34,6 +34,7 @@ mod distance_stop;
 mod distance_winch;
 mod end;
 mod end_stop;
+mod friction_load;
 mod gear;
 mod hinge;
 mod hinge_damper;
@@ -53,6 +54,7 @@ mod rotor;
 mod row;
 mod sensor;
 mod servo;
+mod several;
 mod shaft_friction;
 mod slice;
 mod slide_drive;
@@ -82,6 +84,7 @@ pub use distance_winch::DistanceWinch;
 pub(crate) use end::Body;
 pub use end::{End, Instant, Seen};
 pub use end_stop::{EndStop, SoftEndStop};
+pub use friction_load::{HingeFrictionLoad, Loaded, SlideFrictionLoad};
 pub use gear::Rotor;
 pub use hinge::{Hinge, Turns, Twisted};
 pub use hinge_damper::HingeDamper;
@@ -92,20 +95,21 @@ pub use hinge_servo::HingeServo;
 pub use hinge_spring::HingeSpring;
 pub use hinge_stop::{HingeStop, SoftHingeStop};
 pub use interaction::{
-    Constants, Damper, Inner, Interaction, Law, Need, NoStorage, Quantity, Several, Springs, Wrong,
+    Constants, Damper, Inner, Interaction, Law, Need, NoStorage, Quantity, Springs, Wrong,
 };
 #[doc(hidden)]
 pub use kind::first;
 pub use kind::{
-    Axis, Axle, Count, Field, FieldSink, FieldSource, Kind, Matrix, Normal, Number, Points, Signal,
-    Table, Terms,
+    Axis, Axle, Count, Field, FieldSink, FieldSource, JointGroup, Kind, Matrix, Normal, Number,
+    Points, Signal, Table, Terms,
 };
 pub use ldl::Ldl;
 pub use list::Laws;
 pub use machine::Currents;
 pub use plane_contact::PlaneContact;
-pub use row::{Act, DamperPass, Row};
+pub use row::{Act, DamperPass, GroupForces, Row};
 pub use sensor::{HingeSensor, Sensed, SlideSensor};
+pub use several::Several;
 #[doc(hidden)]
 pub use slice::{act, look, memory, shares_of, sweep};
 pub use slide_drive::{SlideDrive, SlideDriveFriction};

@@ -9,16 +9,31 @@ use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Inner, Quantity, Springs};
 use crate::words::WordVisitor;
 
+/// The forces of a model's groups at the pose of an evaluation.
+pub trait GroupForces<P: Geometry> {
+    /// \[N\] the force of the springs of a group on its second body, world axes; 0 where the model has no such group.
+    fn force(&self, group: u16) -> P::Vector;
+}
+
 /// The options of an evaluation of laws.
-#[derive(Clone, Copy, Debug)]
-pub struct Act<R> {
+pub struct Act<'s, P: Geometry> {
     /// Whether memories are updated first.
     pub settle: bool,
     /// \[s\] the step by which memories are advanced before that.
-    pub advance: Option<R>,
+    pub advance: Option<P::Real>,
     /// Whether dampers act as forces.
     pub damped: bool,
+    /// The forces of groups, computed on demand.
+    pub groups: &'s dyn GroupForces<P>,
 }
+
+impl<P: Geometry> Clone for Act<'_, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P: Geometry> Copy for Act<'_, P> {}
 
 /// A damper pass for laws.
 pub trait DamperPass<P: Geometry> {

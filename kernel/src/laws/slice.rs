@@ -7,10 +7,9 @@ use crate::index::BodyIndex;
 use crate::laws::branch::Branch;
 use crate::laws::branches::Branches;
 use crate::laws::end::{Instant, Seen};
-use crate::laws::interaction::{
-    Damper, Inner, Interaction, Need, Quantity, Several, SharesOf, Springs,
-};
+use crate::laws::interaction::{Damper, Inner, Interaction, Need, Quantity, SharesOf, Springs};
 use crate::laws::row::{Act, DamperPass, Row};
+use crate::laws::several::Several;
 use crate::real::Real as _;
 use crate::words::{Word, WordSource, WordVisitor, Words as _};
 
@@ -29,12 +28,15 @@ pub fn act<P: Geometry, T: Interaction<P>>(
     rows: &[T],
     at: Instant<'_, P>,
     states: &mut [T::State],
-    act: Act<P::Real>,
+    act: Act<'_, P>,
     wrenches: &mut [Wrench<P::Space>],
 ) -> Result<(), usize> {
     for (row, (law, state)) in rows.iter().zip(states).enumerate() {
         let bodies = law.bodies();
         let Some(seen) = at.seen(bodies) else { continue };
+        if T::BEARS && act.settle {
+            law.bear(&seen, act.groups.force(law.group()), state);
+        }
         if T::ADVANCES
             && let Some(h) = act.advance
         {

@@ -41,14 +41,22 @@ impl Of<'_> {
     }
 }
 
+/// What constants of laws name.
+#[derive(Default)]
+pub(super) struct Named {
+    /// The names of the inputs.
+    pub(super) inputs: Vec<String>,
+    /// The joints, each with its group.
+    pub(super) joints: Vec<(String, usize)>,
+}
+
 /// A table as the source of a law's constants.
 pub(super) struct Reading<'a, 't> {
     table: &'a Table<'t>,
     assembly: &'a Assembly,
     pair: &'a Pair,
     of: Of<'a>,
-    /// The names of the inputs.
-    inputs: &'a [String],
+    names: &'a Named,
     refused: Option<SceneError>,
 }
 
@@ -58,9 +66,9 @@ impl<'a, 't> Reading<'a, 't> {
         assembly: &'a Assembly,
         pair: &'a Pair,
         of: Of<'a>,
-        inputs: &'a [String],
+        names: &'a Named,
     ) -> Self {
-        Self { table, assembly, pair, of, inputs, refused: None }
+        Self { table, assembly, pair, of, names, refused: None }
     }
 
     /// The error of a constant.
@@ -89,8 +97,20 @@ impl<'a, 't> Reading<'a, 't> {
             Of::Joint(_) | Of::Spring(..) => return Some(u16::MAX.into()),
             Of::Itself | Of::Coupling(..) => {}
         }
-        let read = self.table.required(field.name, InputName(self.inputs));
+        let read = self.table.required(field.name, InputName(&self.names.inputs));
         self.keep(read)
+    }
+
+    /// The group of a joint.
+    fn joint(&mut self, field: &Field) -> Option<u32> {
+        let row = match self.of.place() {
+            Some(place) => place.group,
+            None => {
+                let read = self.table.required(field.name, JointName(&self.names.joints));
+                self.keep(read)?
+            }
+        };
+        u32::try_from(row).ok()
     }
 
     /// A direction in the axes of the first body, given like a joint's axis; an axle moves with the second body.
@@ -147,8 +167,10 @@ impl FieldSource for Reading<'_, '_> {
 
     fn count(&mut self, field: &Field) -> Option<u32> {
         let table = self.table;
-        if field.kind == "signal" {
-            return self.signal(field);
+        match field.kind {
+            "signal" => return self.signal(field),
+            "joint" => return self.joint(field),
+            _ => {}
         }
         if let Of::Drive(.., constants) = &self.of {
             return Some(constants.get(field.name).unwrap_or(0.0) as u32);
@@ -232,6 +254,29 @@ impl Kind for InputName<'_> {
                 None => "name an input of the type \"signal\" or of another type".into(),
             };
             value.refuse_with(&format!("names no input: \"{}\"", shortened(name)), help)
+        })
+    }
+}
+
+/// The name of a joint.
+struct JointName<'a>(&'a [(String, usize)]);
+
+impl Kind for JointName<'_> {
+    type Output = usize;
+
+    fn expected(&self) -> String {
+        "the name of a joint".into()
+    }
+
+    fn read(&self, value: &Value<'_>) -> Result<usize, SceneError> {
+        let name = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
+        let group = self.0.iter().find(|(known, _)| known == name).map(|(_, group)| *group);
+        group.ok_or_else(|| {
+            let help = match nearest(name, self.0.iter().map(|(known, _)| known.as_str())) {
+                Some(meant) => format!("did you mean \"{meant}\"?"),
+                None => "name a joint between the two bodies".into(),
+            };
+            value.refuse_with(&format!("names no joint: \"{}\"", shortened(name)), help)
         })
     }
 }

@@ -14,7 +14,7 @@ mod of_windings;
 pub(crate) use of_chains::{SENSOR, has_chain, sensor_name};
 pub(crate) use of_couplings::{KEYS as COUPLING, TERM};
 pub(crate) use of_drives::{Driven, GEAR, KEYS as DRIVE, SHAFT_FRICTION, TYPE as DRIVE_TYPE};
-pub(crate) use of_joints::{FRICTION, LIMITS, ROTOR};
+pub(crate) use of_joints::{FRICTION, LIMITS, LOAD, ROTOR};
 pub(crate) use of_winches::{
     KEYS as WINCH, check as check_lengths, drive_of as drive_of_length, range_of as range_of_length,
 };
@@ -31,7 +31,7 @@ use crate::drive;
 use crate::error::SceneError;
 use crate::file_lines::LawPlace;
 use crate::free_length::winches;
-use crate::interaction::field::{Of, Reading};
+use crate::interaction::field::{Named, Of, Reading};
 use crate::interaction::of_couplings::Coupled;
 use crate::interaction::of_drives::OtherInputs;
 use crate::interaction::of_joints::{OF_JOINTS, OfJoint, keys_of, law_of, softened};
@@ -96,8 +96,7 @@ struct One<'t> {
 /// The rows of each law added so far.
 struct Rows<'t> {
     known: Vec<KnownLaw>,
-    /// The names of the inputs.
-    inputs: Vec<String>,
+    named: Named,
     /// Per law: index among the known laws, rows, and their interactions.
     laws: Vec<(usize, Box<dyn SourceRows>, Vec<One<'t>>)>,
 }
@@ -118,7 +117,7 @@ impl<'t> Rows<'t> {
         });
         let (_, rows, of_law) = &mut self.laws[place];
         let table = &one.table;
-        let mut reading = Reading::new(table, assembly, pair, of, &self.inputs);
+        let mut reading = Reading::new(table, assembly, pair, of, &self.named);
         let done = rows.add([pair.a, pair.b], &mut reading);
         if let Some(refused) = reading.into_refused() {
             return Err(refused);
@@ -145,9 +144,10 @@ pub(crate) fn read_all(
     assembly: &mut Assembly,
     elements: &mut Elements,
 ) -> Result<Read, SceneError> {
-    let mut rows = Rows { known: known_laws(), inputs: Vec::new(), laws: Vec::new() };
+    let mut rows = Rows { known: known_laws(), named: Named::default(), laws: Vec::new() };
+    rows.named.joints = joints.iter().map(|joint| (joint.name.clone(), joint.group)).collect();
     for table in root.list("input")? {
-        rows.inputs.push(table.optional("name", Text::Name)?.unwrap_or_default());
+        rows.named.inputs.push(table.optional("name", Text::Name)?.unwrap_or_default());
     }
     of_joints(root, joints, assembly, &mut rows)?;
     of_springs(root, assembly, &mut rows)?;
@@ -293,7 +293,7 @@ fn of_drives<'t>(
     assembly: &Assembly,
     rows: &mut Rows<'t>,
 ) -> Result<(), SceneError> {
-    let mut inputs = OtherInputs { names: rows.inputs.clone(), types: Vec::new() };
+    let mut inputs = OtherInputs { names: rows.named.inputs.clone(), types: Vec::new() };
     for table in root.list("input")? {
         inputs.types.push(table.optional("type", Text::Any)?.unwrap_or_default());
     }

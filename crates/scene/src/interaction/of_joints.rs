@@ -33,7 +33,10 @@ pub(crate) const LIMITS: &[&str] =
 
 /// The keys of friction.
 pub(crate) const FRICTION: &[&str] =
-    &["coulomb", "breakaway", "stribeck", "give", "damping", "viscous"];
+    &["coulomb", "breakaway", "stribeck", "give", "damping", "viscous", "load"];
+
+/// The keys of the load of friction.
+pub(crate) const LOAD: &[&str] = &["mu", "radius", "force"];
 
 /// The keys of a rotor without a drive.
 pub(crate) const ROTOR: &[&str] = &["inertia", "stiffness", "damping", "play"];
@@ -97,12 +100,31 @@ impl<'j> OfJoint<'j> {
                 Some(table.required("coulomb", Number::not_negative(unit)))
             }
             "damping" if self.is_friction && !table.has(key) => Some(self.damping(table)),
+            "mu" | "radius" | "force" if self.is_friction => Some(self.of_load(table, key)),
             _ => None,
         }
     }
 
+    /// A constant of the load of friction.
+    fn of_load(&self, table: &Table<'_>, key: &str) -> Result<f64, SceneError> {
+        let Some(field) = self.fields.iter().find(|field| field.name == key) else {
+            return Ok(1.0);
+        };
+        let is_turn = self.fields.iter().any(|field| field.name == "radius");
+        let expected = if is_turn { "{ mu = …, radius = … }" } else { "{ mu = … }" };
+        let Some(value) = table.value("load") else { return Err(table.missing("load", expected)) };
+        let load = value.table(expected)?;
+        let known = |key: &&&str| is_turn || **key != "radius";
+        load.only(&[&LOAD.iter().filter(known).copied().collect::<Vec<_>>()])?;
+        let number = Number::not_negative(field.units.first().copied().unwrap_or_default());
+        match field.default {
+            Some(default) => Ok(load.optional(key, number)?.unwrap_or(default)),
+            None => load.required(key, number),
+        }
+    }
+
     /// Half the critical damping of the elastic motion of the two free bodies: `√(k·μ)`, with the stiffness k =
-    /// `breakaway`/`give`.
+    /// `breakaway`/`give`, with the friction of the load `force` in addition.
     fn damping(&self, table: &Table<'_>) -> Result<f64, SceneError> {
         let given = |key: &str| {
             let field = self.fields.iter().find(|field| field.name == key);
@@ -114,9 +136,27 @@ impl<'j> OfJoint<'j> {
             Some(limit) => Some(limit),
             None => given("coulomb")?,
         };
+        let limit = match limit.filter(|_| table.has("load")) {
+            Some(limit) => {
+                let [mu, radius, force] =
+                    ["mu", "radius", "force"].map(|key| self.of_load(table, key));
+                Some(limit + mu? * radius? * force?)
+            }
+            None => limit,
+        };
         let square = limit.zip(given("give")?).map(|(limit, give)| limit / (give * self.mobility));
         Ok(square.filter(|square| *square > 0.0 && square.is_finite()).map_or(0.0, libm::sqrt))
     }
+}
+
+/// The laws of friction, each with that with a load.
+const LOADED: [(&str, &str); 2] =
+    [("hinge-friction", "hinge-friction-load"), ("slide-friction", "slide-friction-load")];
+
+/// The law of friction: that with a load with `load`.
+pub(super) fn loaded(table: &Table<'_>, law: &'static str) -> &'static str {
+    let with_load = LOADED.iter().find(|(free, _)| *free == law).filter(|_| table.has("load"));
+    with_load.map_or(law, |(_, with_load)| with_load)
 }
 
 /// A constant of a law of limits that the table specifies differently.
@@ -149,10 +189,10 @@ pub(super) fn softened(law: &str) -> Option<&'static str> {
     SOFTENED.iter().find(|(hard, ..)| *hard == law).map(|(_, soft, _)| *soft)
 }
 
-/// The law of limits: that of a soft stop with `soft` above 0.
+/// The law of limits: that of a soft stop with `soft` above 0; of friction that with a load.
 pub(super) fn law_of(table: &Table<'_>, law: &'static str) -> Result<&'static str, SceneError> {
     let Some((_, soft, unit)) = SOFTENED.iter().find(|(hard, ..)| *hard == law) else {
-        return Ok(law);
+        return Ok(loaded(table, law));
     };
     let depth = table.optional("soft", Number::not_negative(unit))?.unwrap_or(0.0);
     Ok(if depth > 0.0 { soft } else { law })

@@ -48,14 +48,16 @@ pub(crate) struct JointPlace {
     pub(crate) at_w: Vec3<f64>,
     /// World; the sign convention is that of the joint coordinate.
     pub(crate) axis_w: Vec3<f64>,
+    /// Its last group, which acts on its second body.
+    pub(crate) group: usize,
 }
 
 impl JointPlace {
-    fn of(kind: &'static str, joint: &Joint) -> Self {
+    fn of(kind: &'static str, joint: &Joint, group: usize) -> Self {
         let (name, axis, pair) = (joint.name.clone(), joint.axes[0], &joint.pair);
         let (pair, axis_w) =
             if pair.b.is_world() { (pair.reversed(), -axis) } else { (pair.clone(), axis) };
-        Self { kind, name, pair, at_w: joint.at_w, axis_w }
+        Self { kind, name, pair, at_w: joint.at_w, axis_w, group }
     }
 }
 
@@ -92,7 +94,7 @@ pub(crate) fn read_all(
         let spider = assembly.body_names().get(bodies).cloned();
         // Without a spider a universal joint constrains only the freedoms that its two bodies lose.
         let brought = if spider.is_some() { 0 } else { kind.brings };
-        places.push(JointPlace::of(kind.name, &joint));
+        places.push(JointPlace::of(kind.name, &joint, assembly.groups().len().saturating_sub(1)));
         infos.push(JointInfo {
             name,
             kind: kind.name,

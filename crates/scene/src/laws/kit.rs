@@ -324,4 +324,6 @@ impl Random {
 #[cfg(test)]
 mod bushings;
 #[cfg(test)]
+mod drives;
+#[cfg(test)]
 mod tests;

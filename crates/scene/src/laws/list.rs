@@ -173,7 +173,7 @@ impl<P: Geometry> Laws<P> for LawList<P> {
         &self,
         at: Instant<'_, P>,
         states: &mut Vec<Word>,
-        act: Act<P::Real>,
+        act: Act<'_, P>,
         wrenches: &mut [Wrench<P::Space>],
     ) -> Result<(), usize> {
         for (table, [before, from, _]) in self.each() {

@@ -81,6 +81,8 @@ pub fn known_laws() -> Vec<KnownLaw> {
         KnownLaw::of::<laws::HingeActuator>("dbd_kernel::laws::HingeActuator"),
         KnownLaw::of::<laws::SlideActuator>("dbd_kernel::laws::SlideActuator"),
         KnownLaw::of::<laws::HingeDriveDq>("dbd_kernel::laws::HingeDriveDq"),
+        KnownLaw::of::<laws::HingeFrictionLoad>("dbd_kernel::laws::HingeFrictionLoad"),
+        KnownLaw::of::<laws::SlideFrictionLoad>("dbd_kernel::laws::SlideFrictionLoad"),
     ];
     let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
     linked_laws().into_iter().chain(own.iter().cloned()).for_each(|law| put(&mut known, law));

@@ -77,7 +77,7 @@ pub(crate) trait Rows<P: Geometry>: Send + Sync {
         &self,
         at: Instant<'_, P>,
         words: &mut [Word],
-        act: Act<P::Real>,
+        act: Act<'_, P>,
         wrenches: &mut [Wrench<P::Space>],
     ) -> Result<(), usize>;
     fn sweep(
@@ -125,7 +125,7 @@ impl<P: Geometry, T: Interaction<P>> Rows<P> for Of<T> {
         &self,
         at: Instant<'_, P>,
         words: &mut [Word],
-        act: Act<P::Real>,
+        act: Act<'_, P>,
         wrenches: &mut [Wrench<P::Space>],
     ) -> Result<(), usize> {
         let each = Rows::<P>::words(self);

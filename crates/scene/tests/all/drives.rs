@@ -314,7 +314,10 @@ const SIGNAL: &str = "[[input]]\nname = \"ud\"\ntype = \"signal\"\nvalue = -2\n"
 #[test]
 fn a_winding_in_rotor_axes_is_a_law() {
     let keyed = scene(&(drive(MACHINE) + SIGNAL)).unwrap();
-    assert_eq!((keyed.inputs[0].unit, dbd_scene::interactions(&keyed)[0].law), ("V", "hinge-drive-dq"));
+    assert_eq!(
+        (keyed.inputs[0].unit, dbd_scene::interactions(&keyed)[0].law),
+        ("V", "hinge-drive-dq")
+    );
     let of_law = "[[interaction]]\nlaw = \"hinge-drive-dq\"\nbetween = [\"slider\", \"lever\"]\naxis = [0, 0, 1]\n\
                   input = \"u\"\nd_input = \"ud\"\nresistance = 2\ninductance_d = 0.004\ninductance_q = 0.006\n\
                   flux = 0.02\npoles = 50\nmost_current = 3\ninertia = 0.001\nstiffness = 500\ndamping = 1";
@@ -370,7 +373,10 @@ fn what_is_no_winding_in_rotor_axes_is_refused() {
             ["flux", "equal inductances"],
         ),
         (
-            with("inductance_d = \"4 mH\", inductance_q = \"6 mH\", flux = \"20 mV*s\", pole_pairs = 5", "constant = 1"),
+            with(
+                "inductance_d = \"4 mH\", inductance_q = \"6 mH\", flux = \"20 mV*s\", pole_pairs = 5",
+                "constant = 1",
+            ),
             ["d_input", "inductance_d"],
         ),
     ] {

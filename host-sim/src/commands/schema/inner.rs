@@ -20,7 +20,13 @@ pub(super) fn schema(table: &str, key: &str, tables: &[TableKeys]) -> Option<Val
         "rate" => of_rate(key),
         "sine" => of_sine(key),
         "limits" => of_limits(key),
+        "friction" if key == "load" => Some(Key(
+            within("friction_load", tables, &["mu"]),
+            "Friction of the joint's force across its axis: { mu = …, radius = … }, along an axis { mu = … }",
+            "none",
+        )),
         "friction" => of_friction(key),
+        "friction_load" => of_friction_load(key),
         "gear" => of_gear(key),
         "shaft_friction" => of_shaft_friction(key),
         "rotor" if key == "inertia" => Some(Key(
@@ -255,6 +261,23 @@ fn of_friction(key: &str) -> Option<Key> {
         "viscous" => {
             Key(number(NotNegative), "N·m·s/rad or N·s/m: viscous coefficient during sliding", "0")
         }
+        _ => return None,
+    })
+}
+
+fn of_friction_load(key: &str) -> Option<Key> {
+    Some(match key {
+        "mu" => Key(number(NotNegative), "Coefficient of friction", ""),
+        "radius" => Key(
+            number(NotNegative),
+            "m: radius at which it acts; about an axis only, and there required",
+            "",
+        ),
+        "force" => Key(
+            number(NotNegative),
+            "N: load included in the friction at which the elastic part of the motion is `give`",
+            "0",
+        ),
         _ => return None,
     })
 }

@@ -1,20 +1,19 @@
 use super::*;
 use dbd_kernel::laws::{
     Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop, Hinge,
-    HingeDamper, HingeDrive, HingeDriveDq, HingeDriveFriction, HingeFriction, HingeServo,
-    HingeSpring, HingeStop, PlaneContact, SlideDrive, SlideDriveFriction, SlideFriction,
-    SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop, SphereContact, Springs, WheelContact,
+    HingeDamper, HingeFriction, HingeSpring, HingeStop, PlaneContact, SlideFriction,
+    SoftDistanceStop, SoftEndStop, SoftHingeStop, SphereContact, Springs, WheelContact,
 };
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{BodyIndex, InputIndex, Real as _};
 
-const BODIES: [BodyIndex; 2] = [BodyIndex(0), BodyIndex(1)];
+pub(super) const BODIES: [BodyIndex; 2] = [BodyIndex(0), BodyIndex(1)];
 
-fn hinge() -> Hinge<f64> {
+pub(super) fn hinge() -> Hinge<f64> {
     Hinge { axis: Vec3::new(0.6, 0.0, 0.8), reference: Quaternion::IDENTITY }
 }
 
-fn end_stop(dissipation: f64) -> EndStop {
+pub(super) fn end_stop(dissipation: f64) -> EndStop {
     EndStop {
         bodies: BODIES,
         points: [Vec3::new(0.02, 0.0, 0.01), Vec3::new(0.0, -0.03, 0.02)],
@@ -265,133 +264,4 @@ fn a_law_that_breaks_a_rule_is_told_which() {
     let away = EndStop { points: [Vec3::ZERO, Vec3::new(0.0, 1.0, 1.0)], ..end_stop(0.0) };
     let near = Poses { reach: 1e-9, turn: 1e-9, ..Poses::default() };
     assert!(hold(&away, near).unwrap_err().contains("no effect at any pose"));
-}
-
-#[test]
-fn drives_keep_what_laws_promise() {
-    let (poses, input, points) = (Poses::default(), InputIndex(0), end_stop(0.0).points);
-    let axis = Vec3::new(0.0, 0.6, 0.8);
-    let (servo_stiffness, servo_damping, feed, most) = (40.0, 3.0, 0.0, 5.0);
-    let turn = HingeServo {
-        bodies: BODIES,
-        axis: hinge(),
-        input,
-        servo_stiffness,
-        servo_damping,
-        feed,
-        most,
-    };
-    hold(&turn, poses).unwrap();
-    let travel = SlideServo {
-        bodies: BODIES,
-        points,
-        axis,
-        input,
-        servo_stiffness,
-        servo_damping,
-        feed,
-        most,
-    };
-    hold(&travel, poses).unwrap();
-    for (play, damping) in [(0.0, 0.0), (0.0, 0.7), (0.02, 0.7)] {
-        let turn = HingeDrive {
-            bodies: BODIES,
-            axis: hinge(),
-            input,
-            gain: 0.0,
-            servo_stiffness,
-            servo_damping,
-            feed,
-            most,
-            lag: 0.0,
-            inertia: 0.05,
-            stiffness: 2e3,
-            damping,
-            play,
-        };
-        hold(&turn, poses).unwrap();
-        let travel = SlideDrive {
-            bodies: BODIES,
-            points,
-            axis,
-            input,
-            gain: 0.0,
-            servo_stiffness,
-            servo_damping,
-            feed,
-            most,
-            lag: 0.0,
-            inertia: 0.05,
-            stiffness: 2e3,
-            damping,
-            play,
-        };
-        hold(&travel, poses).unwrap();
-        let HingeDrive { bodies, axis, gain, lag, inertia, stiffness, .. } = turn;
-        let [coulomb, viscous] = [0.3, 0.02];
-        let turn = HingeDriveFriction {
-            bodies,
-            axis,
-            input,
-            gain,
-            servo_stiffness,
-            servo_damping,
-            feed,
-            most,
-            lag,
-            inertia,
-            stiffness,
-            damping,
-            play,
-            coulomb,
-            viscous,
-        };
-        hold(&turn, poses).unwrap();
-        let SlideDrive { axis, .. } = travel;
-        let travel = SlideDriveFriction {
-            bodies,
-            points,
-            axis,
-            input,
-            gain,
-            servo_stiffness,
-            servo_damping,
-            feed,
-            most,
-            lag,
-            inertia,
-            stiffness,
-            damping,
-            play,
-            coulomb,
-            viscous,
-        };
-        hold(&travel, poses).unwrap();
-    }
-}
-
-#[test]
-fn a_machine_keeps_what_laws_promise() {
-    for (play, damping, resistance) in [(0.0, 0.0, 1.2), (0.0, 0.7, 0.0), (0.02, 0.7, 1.2)] {
-        let turn = HingeDriveDq {
-            bodies: BODIES,
-            axis: hinge(),
-            input: InputIndex(0),
-            d_input: InputIndex(1),
-            resistance,
-            inductance_d: 2e-4,
-            inductance_q: 3e-4,
-            flux: 0.01,
-            poles: 40.0,
-            most_current: 20.0,
-            lag: 0.0,
-            inertia: 0.05,
-            stiffness: 2e3,
-            damping,
-            play,
-            coulomb: 0.3,
-            viscous: 0.02,
-        };
-        hold(&turn, Poses::default()).unwrap();
-    }
 }

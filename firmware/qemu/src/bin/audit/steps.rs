@@ -8,8 +8,8 @@ use dbd_kernel::laws::{
     Bushing, BushingCurves, BushingMatrix, BushingMaxwell, Coupling, DistanceDamper,
     DistanceSpring, DistanceStop, DistanceWinch, EndStop, HingeActuator, HingeDamper, HingeDrive,
     HingeDriveDq,
-    HingeDriveFriction, HingeFriction, HingeSensor, HingeServo, HingeSpring, HingeStop,
-    PlaneContact, SlideActuator, SlideDrive, SlideDriveFriction, SlideFriction, SlideSensor,
+    HingeDriveFriction, HingeFriction, HingeFrictionLoad, HingeSensor, HingeServo, HingeSpring, HingeStop,
+    PlaneContact, SlideActuator, SlideDrive, SlideDriveFriction, SlideFriction, SlideFrictionLoad, SlideSensor,
     SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop, SphereContact, WheelContact,
 };
 use dbd_kernel::model::Planned;
@@ -81,7 +81,7 @@ type OfContacts<P> = Lawful<
     ),
 >;
 
-/// Couplings, mounts, windings in rotor axes.
+/// Couplings, mounts, windings in rotor axes, friction of a load.
 type OfMounts<P> = Lawful<
     P,
     (
@@ -91,6 +91,8 @@ type OfMounts<P> = Lawful<
         [BushingMatrix<P>; 1],
         [BushingMaxwell<P>; 1],
         [HingeDriveDq<P>; 1],
+        [HingeFrictionLoad<P>; 1],
+        [SlideFrictionLoad<P>; 1],
     ),
 >;
 
