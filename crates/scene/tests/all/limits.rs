@@ -263,6 +263,14 @@ fn bad_limits_are_refused_with_place_reason_and_remedy() {
             "friction = { coulomb = 0 }",
             ["`friction` of joint `pivot` is too small", "a number > 0"],
         ),
+        ("", "friction = { coulomb = 1, load = 0.1 }", ["`load`", "{ mu = …, radius = … }"]),
+        ("", "friction = { coulomb = 1, load = { mu = 0.1 } }", ["has no `radius`", "m"]),
+        ("", "friction = { coulomb = 1, load = { radius = 0.1 } }", ["has no `mu`", "≥ 0"]),
+        ("", "friction = { coulomb = 1, load = { mu = -0.1, radius = 1 } }", ["`mu`", "≥ 0"]),
+        ("", "friction = { coulomb = 1, load = { mu = 1, radius = -1 } }", ["`radius`", "≥ 0"]),
+        ("", "friction = { load = { mu = 1, radius = 1 } }", ["has no `coulomb`", "N·m"]),
+        ("friction = { coulomb = 1, load = { mu = 1, radius = 1 } }", "", ["no key `radius`", "mu"]),
+        ("friction = { coulomb = 0, load = { mu = 1 } }", "", ["too small", "a number > 0"]),
         (
             "",
             "friction = { coulomb = 1 }\n[[tsda]]\nname = \"pivot.friction\"\nbetween = [\"world\", \"lever\"]\n\
@@ -275,6 +283,37 @@ fn bad_limits_are_refused_with_place_reason_and_remedy() {
         for words in says {
             assert!(flat.contains(words), "{slide}{turn}: {words} not in {text}");
         }
+    }
+}
+
+/// `load` names the law with a load; an interaction names it, and its joint.
+#[test]
+fn friction_with_a_load_is_a_law() {
+    let with = |slide: &str, turn: &str| {
+        let of = |load: &str| format!("friction = {{ coulomb = 2{load} }}");
+        scene(&of(slide), &of(turn)).unwrap_or_else(|said| panic!("{said}"))
+    };
+    let laws = |scene: &Scene| dbd_scene::interactions(scene).iter().map(|law| law.law).collect();
+    let loaded: Vec<_> = laws(&with(", load = { mu = 0.1 }", ", load = { mu = 0.1, radius = 0.01 }"));
+    assert_eq!(loaded, ["slide-friction-load", "hinge-friction-load"]);
+    let free: Vec<_> = laws(&with("", ""));
+    assert_eq!(free, ["slide-friction", "hinge-friction"]);
+    let own = |joint: &str| {
+        scene(
+            "",
+            &format!(
+                "[[interaction]]\nlaw = \"hinge-friction-load\"\nbetween = [\"slider\", \"lever\"]\n\
+                 axis = [0, 0, 1]\njoint = {joint}\nmu = 0.1\nradius = 0.01\ncoulomb = 1\nbreakaway = 1"
+            ),
+        )
+    };
+    own("\"pivot\"").unwrap();
+    for (joint, parts) in [
+        ("\"pivto\"", ["names no joint", "did you mean \"pivot\"?"]),
+        ("3", ["`joint`", "the name of a joint"]),
+    ] {
+        let said = own(joint).err().unwrap_or_default();
+        assert!(parts.iter().all(|part| said.contains(part)), "{joint}: {said}");
     }
 }
 
