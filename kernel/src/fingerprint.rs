@@ -276,6 +276,10 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
         }
         InputKind::Actuator { group, element } => integers(5, *group, *element),
         InputKind::Signal => integers(7, 0, 0),
+        InputKind::Gravity { direction } => {
+            integers(9, 0, 0);
+            direction.visit(visitor);
+        }
         InputKind::Anchor { direction } => {
             integers(6, 0, 0);
             direction.visit(visitor);

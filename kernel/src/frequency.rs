@@ -42,7 +42,10 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
     let mut rest = state.clone();
     for (signal, input) in rest.signals.as_mut().iter_mut().zip(model.view().inputs) {
         let has_energy = match input.kind {
-            InputKind::Actuator { .. } | InputKind::Anchor { .. } | InputKind::Signal => true,
+            InputKind::Actuator { .. }
+            | InputKind::Gravity { .. }
+            | InputKind::Anchor { .. }
+            | InputKind::Signal => true,
             InputKind::Force { frame, .. } => frame == LoadFrame::World,
             InputKind::Torque { .. }
             | InputKind::JointTorque { .. }

@@ -105,7 +105,7 @@ pub enum Readout<P: Geometry> {
         /// The point in body axes.
         point: P::Local,
     },
-    /// \[N, N·m, m\] the value of an input at the present time, which the next step uses.
+    /// \[N, N·m, m/s², m\] the value of an input at the present time, which the next step uses.
     Input {
         /// The input.
         input: InputIndex,
@@ -255,7 +255,7 @@ pub fn read<M: ModelOwner>(
             let wrenches = forces::wrenches(model, state, step_size).ok()?;
             let wrench = wrenches.as_ref().get(body.row())?;
             let rate = M::Precision::spin(&bodies.get(body.row())?.angular_velocity);
-            let gravity = view.gravity.first().copied().unwrap_or(Linear::ZERO);
+            let gravity = forces::field(&view, state.signals.as_ref());
             let end = End::new(&view, places, body, Some(bodies));
             // Lever arm, rates and accelerations in body axes.
             let arm = end.to_axes(end.place(&point).1);

@@ -10,6 +10,7 @@ mod couplings;
 mod creep;
 mod drives;
 mod examples;
+mod gravity;
 mod loaded;
 mod mounts;
 mod relaxing;

@@ -7,7 +7,9 @@ use dbd_tests::page::{block, table};
 use nalgebra::{Matrix6, Vector6};
 
 use crate::drives::{ROTOR, period, wheel};
-use crate::{axes, contacts, couplings, instance, loaded, mounts, shaft, soft, value, winches};
+use crate::{
+    axes, contacts, couplings, gravity, instance, loaded, mounts, shaft, soft, value, winches,
+};
 
 const G: f64 = 9.81;
 
@@ -355,6 +357,7 @@ fn elements_reach_their_values() {
         shaft::cases(),
         axes::cases(),
         loaded::cases(),
+        vec![gravity::case()],
     ];
     for case in cases().into_iter().chain(further.into_iter().flatten()) {
         let steps = [case.step, case.step / 2.0, case.step / 4.0];

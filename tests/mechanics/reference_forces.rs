@@ -79,6 +79,7 @@ fn everything() -> Bench<F64> {
     model.add_table(InputKind::JointTorque { a, b: c, axes: [axis; 2] }, &road, true).unwrap();
     model.add_input(InputKind::JointForce { a: c, b, point, axis }, 2.5).unwrap();
     model.add_input(InputKind::Actuator { group: 2, element: 0 }, 3.0).unwrap();
+    model.add_table(InputKind::Gravity { direction: axis }, &steps, false).unwrap();
     model.add_tsda([anchor, b], [[0.0, 1.0, 0.0], [0.1; 3]], 80.0, 1.5, 0.4).unwrap();
     model.add_tsda([a, anchor], [[0.1; 3], [0.5, 1.0, 0.0]], 60.0, 2.0, 0.0).unwrap();
     let law = LineLaw { stiffness: 30.0, damping: 0.9, free_length: 0.1, clearance: 0.2 };

@@ -132,6 +132,7 @@ fn input<R: Real + Named>(input: &Input<Float<R>>) -> InputShape {
         InputKind::JointForce { a, b, .. } => (6, [a.0, b.0], LoadFrame::Body),
         InputKind::Actuator { group, element } => (3, [group, element], LoadFrame::World),
         InputKind::Anchor { .. } => (4, [0; 2], LoadFrame::World),
+        InputKind::Gravity { .. } => (7, [0; 2], LoadFrame::World),
         InputKind::Signal => (5, [0; 2], LoadFrame::World),
     };
     (kind, of, frame, [input.knot, input.knots])

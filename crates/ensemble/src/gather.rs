@@ -194,7 +194,7 @@ fn input<'m, V: Register>(
         InputKind::Torque { axis, .. } => [axis; 2],
         InputKind::JointTorque { axes, .. } => axes,
         InputKind::JointForce { point, axis, .. } => [point, axis],
-        InputKind::Anchor { direction } => [direction; 2],
+        InputKind::Gravity { direction } | InputKind::Anchor { direction } => [direction; 2],
         InputKind::Actuator { .. } | InputKind::Signal => [Vec3::default(); 2],
     };
     let (point, axis) = (vector(|i| vectors(i)[0]), vector(|i| vectors(i)[1]));
@@ -207,6 +207,7 @@ fn input<'m, V: Register>(
         InputKind::JointForce { a, b, .. } => InputKind::JointForce { a, b, point, axis },
         InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
         InputKind::Signal => InputKind::Signal,
+        InputKind::Gravity { .. } => InputKind::Gravity { direction: axis },
         InputKind::Anchor { .. } => InputKind::Anchor { direction: axis },
     };
     let Input { knot, knots, .. } = *of(0);

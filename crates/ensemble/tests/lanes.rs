@@ -363,6 +363,11 @@ table = [[0, 1], [0.01, -1], [0.03, 1]]
 periodic = true
 interpolate = "linear"
 [[input]]
+name = "tilt"
+type = "gravity"
+axis = [0.6, 0, 0.8]
+sine = { amplitude = 3, frequency = 5 }
+[[input]]
 name = "wind"
 type = "force"
 body = "b"

@@ -212,6 +212,11 @@ impl Budget {
                         most * speeds.sum::<f64>() * span
                     })
                 }
+                InputKind::Gravity { .. } => {
+                    let bodies = model.bodies.iter().enumerate();
+                    let rates = bodies.map(|(row, body)| body.mass * speed(Some(row))[0]);
+                    most * rates.sum::<f64>() * span
+                }
                 // The energy of a drive has no bound that is known here.
                 InputKind::Signal => f64::INFINITY,
                 InputKind::Anchor { .. } => {

@@ -319,6 +319,7 @@ fn quantity_of_input(kind: &str, unit: &str) -> &'static str {
     match kind {
         "torque" | "joint_torque" => "torque",
         "actuator" => "tension",
+        "gravity" => "gravity",
         "anchor" => "shift",
         "drive" | "signal" | "free_length" => quantity_of_unit(unit),
         _ => "force",

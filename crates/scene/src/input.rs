@@ -49,12 +49,13 @@ const TORQUE: &[&str] =
     &["target", "axis", "about", "lag", "delay", "limits", "rate_limit", "period"];
 const FORCE: &[&str] = &["target", "lag", "delay", "limits", "rate_limit", "period"];
 
-static TYPES: [InputType; 9] = [
+static TYPES: [InputType; 10] = [
     InputType { name: "force", unit: "N", keys: &["body", "point", "axis", "frame"], read: force },
     InputType { name: "torque", unit: "N·m", keys: &["body", "axis", "frame"], read: torque },
     InputType { name: "joint_torque", unit: "N·m", keys: TORQUE, read: joint_torque },
     InputType { name: "joint_force", unit: "N", keys: FORCE, read: joint_force },
     InputType { name: "actuator", unit: "N", keys: &["target"], read: actuator },
+    InputType { name: "gravity", unit: "m/s²", keys: &["axis"], read: gravity },
     InputType { name: "anchor", unit: "m", keys: &["target", "axis"], read: anchor },
     InputType { name: free_length::TYPE, unit: "m", keys: interaction::WINCH, read: signal },
     // Its unit is that of its mode.
@@ -208,6 +209,10 @@ fn actuator(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, 
         return Err(table.refuse_value("target", &problem, help));
     }
     Ok(InputKind::Actuator { group: group as u16, element: 0 })
+}
+
+fn gravity(table: &Table<'_>, _: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    Ok(InputKind::Gravity { direction: table.required("axis", Direction)? })
 }
 
 /// The law that reads it is another part of the scene.

@@ -254,6 +254,11 @@ type = "anchor"
 target = "mount"
 axis = [1, 0, 0]
 sine = { amplitude = "2 cm", frequency = 6 }
+[[input]]
+name = "tilt"
+type = "gravity"
+axis = [1, 0, 0]
+sine = { amplitude = 9, frequency = 2 }
 "#;
 
     /// The balance of a run by a slightly different model.
@@ -275,7 +280,7 @@ sine = { amplitude = "2 cm", frequency = 6 }
             .fold(f64::INFINITY, |least, part| least.min(part.abs()));
         assert!(right.remains.abs() < 1e-3 * least, "{right:?}");
         type Change = fn(&mut SceneModel<F64>);
-        let wrong: [(&str, Change); 4] = [
+        let wrong: [(&str, Change); 5] = [
             ("load", |model| model.loads[0].force = -model.loads[0].force),
             ("damper", |model| model.dampers[0] = -model.dampers[0]),
             ("input", |model| {
@@ -284,6 +289,10 @@ sine = { amplitude = "2 cm", frequency = 6 }
             }),
             ("anchor", |model| {
                 let InputKind::Anchor { direction } = &mut model.inputs[1].kind else { return };
+                *direction = -*direction;
+            }),
+            ("gravity", |model| {
+                let InputKind::Gravity { direction } = &mut model.inputs[2].kind else { return };
                 *direction = -*direction;
             }),
         ];

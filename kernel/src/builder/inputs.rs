@@ -59,7 +59,7 @@ impl<
                 let there = known.is_some_and(|g| (*element as usize) < g.elements());
                 check(there, Quantity::Arms)?;
             }
-            InputKind::Signal | InputKind::Anchor { .. } => {}
+            InputKind::Gravity { .. } | InputKind::Signal | InputKind::Anchor { .. } => {}
         }
         match &kind {
             InputKind::Force { point, direction, .. } => {
@@ -74,7 +74,9 @@ impl<
             InputKind::JointTorque { axes, .. } => {
                 check(axes.iter().all(|axis| axis.is_finite()), Quantity::Axis)?;
             }
-            InputKind::Anchor { direction } => check(direction.is_finite(), Quantity::Axis)?,
+            InputKind::Gravity { direction } | InputKind::Anchor { direction } => {
+                check(direction.is_finite(), Quantity::Axis)?;
+            }
             InputKind::Actuator { .. } | InputKind::Signal => {}
         }
         check(P::Real::from_f64(value).is_finite(), Quantity::Load)?;

@@ -1,6 +1,6 @@
 //! Inputs: the action of a signal on a mechanism, and its table.
 //!
-//! `scene => constants`. A signal is a force, a torque, a tension or a displacement of the ground;
+//! `scene => constants`. A signal is a force, a torque, a tension, a field of gravity or a displacement of the ground;
 //! it is set by the caller or follows knots that are held or linear, see [`crate::schedule`].
 
 use crate::elements::load::LoadFrame;
@@ -62,6 +62,12 @@ pub enum InputKind<P: Geometry> {
         /// Its index in the group.
         element: u16,
     },
+    /// A uniform field of gravity \[m/s²\] in addition to the model's: mass times value along a direction at every
+    /// centre of mass.
+    Gravity {
+        /// Unit direction, world axes.
+        direction: P::Vector,
+    },
     /// A number that laws read, see [`crate::laws::Seen::signal`]; it exerts no force itself.
     Signal,
     /// A displacement \[m\] of ground points along a direction, with its rate \[m/s\]. The points
@@ -77,7 +83,7 @@ pub enum InputKind<P: Geometry> {
 pub struct Input<P: Geometry> {
     /// The action of its signal.
     pub kind: InputKind<P>,
-    /// \[N, N·m or m\] its value at t = 0 where no table drives it.
+    /// \[N, N·m, m/s² or m\] its value at t = 0 where no table drives it.
     pub value: P::Real,
     /// Its first knot among the model's knots.
     pub knot: u16,
@@ -137,6 +143,7 @@ impl<P: Geometry> Input<P> {
                 InputKind::JointForce { a, b, point, axis: vector(axis) }
             }
             InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
+            InputKind::Gravity { direction } => InputKind::Gravity { direction: vector(direction) },
             InputKind::Signal => InputKind::Signal,
             InputKind::Anchor { direction } => InputKind::Anchor { direction: vector(direction) },
         };
@@ -152,7 +159,7 @@ impl<P: Geometry> Input<P> {
 pub struct Knot<R> {
     /// \[s\] the time from which it applies.
     pub time: f64,
-    /// \[N, N·m or m\] the value at its time.
+    /// \[N, N·m, m/s² or m\] the value at its time.
     pub value: R,
     /// The value's rate \[1/s\] until the next knot; 0 where the table is held.
     pub slope: R,

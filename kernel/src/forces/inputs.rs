@@ -1,8 +1,10 @@
 //! The forces and torques of inputs, added after all others, in ascending order.
 //!
 //! `(inputs, signals, frames) => wrenches`, torques in body axes. The wrenches without inputs are stored separately, so
-//! that setting an input needs no evaluation of the pose. An anchor moves points instead, see [`crate::pose`].
+//! that setting an input needs no evaluation of the pose, except in a model with gravity as an input, which acts on every
+//! body. An anchor moves points instead, see [`crate::pose`].
 
+use crate::elements::gravity;
 use crate::elements::input::InputKind;
 use crate::elements::load::LoadFrame;
 use crate::elements::torsion_spring::gradient_between;
@@ -12,6 +14,7 @@ use crate::index::BodyIndex;
 use crate::model::{ModelRef, Terms};
 use crate::pose::{End, Places, placed};
 use crate::real::Real;
+use crate::schedule::Signal;
 use crate::space::{Linear as _, Vector as _};
 
 /// The wrenches of the two bodies of each input without any input.
@@ -30,7 +33,7 @@ fn bodies_of<P: Geometry, T: Terms<P>>(
         InputKind::Actuator { group, .. } => {
             model.groups.get(group as usize).map_or([world; 2], |group| [group.a, group.b])
         }
-        InputKind::Signal | InputKind::Anchor { .. } => [world; 2],
+        InputKind::Gravity { .. } | InputKind::Signal | InputKind::Anchor { .. } => [world; 2],
     }
 }
 
@@ -50,13 +53,13 @@ pub(crate) fn keep<P: Geometry, T: Terms<P>>(
     }
 }
 
-/// Restores the wrenches from before [`push`].
+/// Restores the wrenches from before [`push`]; `false` where gravity is an input: its bodies' wrenches are not kept.
 #[inline(always)]
 pub(crate) fn take_back<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     unpushed: &[Unpushed<P::Space>],
     wrenches: &mut [Wrench<P::Space>],
-) {
+) -> bool {
     for (input, unpushed) in model.inputs.iter().zip(unpushed) {
         for (body, kept) in bodies_of(model, &input.kind).into_iter().zip(unpushed) {
             if let Some(wrench) = wrenches.get_mut(body.row()) {
@@ -64,6 +67,7 @@ pub(crate) fn take_back<P: Geometry, T: Terms<P>>(
             }
         }
     }
+    !model.inputs.iter().any(|input| matches!(input.kind, InputKind::Gravity { .. }))
 }
 
 /// Adds a record, torques in world axes, to wrenches whose torques are in body axes.
@@ -130,10 +134,31 @@ pub(crate) fn push<P: Geometry, T: Terms<P>>(
                 Some(force_pair) => (bodies_of(model, &input.kind), force_pair),
                 None => continue,
             },
+            InputKind::Gravity { direction } => {
+                let field = direction * value;
+                for (body, wrench) in model.bodies.iter().zip(wrenches.iter_mut()) {
+                    wrench.force = wrench.force + gravity::weight(body.mass, field);
+                }
+                continue;
+            }
             InputKind::Signal | InputKind::Anchor { .. } => continue,
         };
         add(places, wrenches, bodies, &force_pair);
     }
+}
+
+/// \[m/s²\] the model's gravity and that of its inputs, world axes.
+pub(crate) fn field<P: Geometry, T: Terms<P>>(
+    model: &ModelRef<'_, P, T>,
+    signals: &[Signal<P::Real>],
+) -> P::Vector {
+    let mut field = model.gravity.first().copied().unwrap_or(P::Vector::ZERO);
+    for (input, signal) in model.inputs.iter().zip(signals) {
+        if let InputKind::Gravity { direction } = input.kind {
+            field = field + direction * signal.value;
+        }
+    }
+    field
 }
 
 /// \[m\] the lever arms of a point of B from the centres of mass of A, unused for the ground, and of B, world.

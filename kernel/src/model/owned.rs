@@ -210,7 +210,7 @@ impl<
                         "the element of an actuator does not exist"
                     );
                 }
-                InputKind::Signal | InputKind::Anchor { .. } => {}
+                InputKind::Gravity { .. } | InputKind::Signal | InputKind::Anchor { .. } => {}
             }
             i += 1;
         }

@@ -300,7 +300,9 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
                 return false;
             }
             let places = Places { frames: &*self.frames, signals: &*self.signals };
-            forces::take_back(&self.model, self.unpushed, self.wrenches);
+            if !forces::take_back(&self.model, self.unpushed, self.wrenches) {
+                return false;
+            }
             forces::push(&self.model, places, self.wrenches);
             self.cache.pushed = true;
         }

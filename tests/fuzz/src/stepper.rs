@@ -321,7 +321,7 @@ fn add_input<P: Geometry>(model: &mut Model<P>, bytes: &mut Unstructured<'_>, wi
     let along = triple(bytes, wild);
     let (direction, axis) = (P::Vector::from_f64(along), P::Moment::from_f64(along));
     let (one, frame) = (body(bytes), frame(bytes));
-    let kind = match byte(bytes) % 5 {
+    let kind = match byte(bytes) % 6 {
         0 => {
             let point = P::local_from_f64(triple(bytes, wild));
             InputKind::Force { body: one, point, direction, frame }
@@ -332,7 +332,8 @@ fn add_input<P: Geometry>(model: &mut Model<P>, bytes: &mut Unstructured<'_>, wi
             group: u16::from(byte(bytes) % 4),
             element: u16::from(byte(bytes) % 4),
         },
-        _ => InputKind::Anchor { direction },
+        4 => InputKind::Anchor { direction },
+        _ => InputKind::Gravity { direction },
     };
     if one_in(bytes, 2) {
         let _ = model.add_input(kind, number(bytes, wild));

@@ -138,6 +138,9 @@ pub(super) fn input<P: SourceGeometry>(input: &Input<P>) -> String {
         InputKind::Actuator { group, element } => {
             format!("Actuator {{ group: {group}, element: {element} }}")
         }
+        InputKind::Gravity { direction } => {
+            format!("Gravity {{ direction: {} }}", P::vector(direction))
+        }
         InputKind::Signal => "Signal".into(),
         InputKind::Anchor { direction } => {
             format!("Anchor {{ direction: {} }}", P::vector(direction))

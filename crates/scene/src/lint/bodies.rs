@@ -33,7 +33,7 @@ pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     for island in &facts.islands {
         let first = island.bodies[0];
         let is_flown = island.bodies.iter().any(|row| is_flown(scene, *row));
-        let falls = !scene.model.gravity.is_empty() && !is_flown;
+        let falls = has_gravity(scene) && !is_flown;
         if island.elements == 0 {
             let (severity, text) = match is_flown {
                 true => (Severity::Note, "only forces of inputs act on it"),
@@ -70,6 +70,13 @@ pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
             }
         }
     }
+}
+
+/// Whether the scene or an input of it has gravity.
+fn has_gravity(scene: &Scene) -> bool {
+    let is_gravity = |kind: &InputKind<F64>| matches!(kind, InputKind::Gravity { .. });
+    !scene.model.gravity.is_empty()
+        || scene.model.inputs.iter().any(|input| is_gravity(&input.kind))
 }
 
 /// Whether a caller's force may carry a body, as a rotor's thrust does.

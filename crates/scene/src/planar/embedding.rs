@@ -197,6 +197,9 @@ impl Planar {
                 axis: self.outward(a, LoadFrame::Body, axis),
             },
             InputKind::Actuator { .. } | InputKind::Signal => kind,
+            InputKind::Gravity { direction } => {
+                InputKind::Gravity { direction: self.plane.outward(direction) }
+            }
             InputKind::Anchor { direction } => {
                 InputKind::Anchor { direction: self.plane.outward(direction) }
             }

@@ -115,6 +115,9 @@ fn kind(
             InputKind::JointForce { a, b, point: flat(point), axis }
         }
         InputKind::Actuator { .. } | InputKind::Signal => kind,
+        InputKind::Gravity { direction } => {
+            InputKind::Gravity { direction: in_plane(plane.inward(direction)) }
+        }
         InputKind::Anchor { direction } => {
             InputKind::Anchor { direction: in_plane(plane.inward(direction)) }
         }

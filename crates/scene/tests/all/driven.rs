@@ -186,6 +186,24 @@ fn sines_and_tables_that_repeat_become_sources() {
 }
 
 #[test]
+fn gravity_has_a_direction_in_the_world() {
+    let found =
+        scene(&input("tilt", "type = \"gravity\"\naxis = [0, 0, -2]\nvalue = \"0.5 m/s^2\""));
+    let direction = Vec3::new(0.0, 0.0, -1.0);
+    assert_eq!(found.model.inputs[0].kind, InputKind::Gravity { direction });
+    assert_eq!((found.model.inputs[0].value, found.inputs[0].unit), (0.5, "m/s²"));
+    let source = dbd_scene::export::model::<f32>(&found);
+    let part =
+        "Input { kind: InputKind::Gravity { direction: Vec3::new(0.0, 0.0, -1.0) }, value: 0.5";
+    assert!(source.contains(part), "{source}");
+    for (keys, part) in [("", "`axis`"), ("axis = [0, 0, 1]\nbody = \"arm\"", "`body`")] {
+        let text = input("tilt", &format!("type = \"gravity\"\n{keys}"));
+        let error = Scene::parse(&format!("{BODIES}{text}"), "tilt.toml").unwrap_err();
+        assert!(error.message().contains(part), "{}", error.message());
+    }
+}
+
+#[test]
 fn an_anchor_moves_the_grounds_end_of_its_elements() {
     let road = "type = \"anchor\"\ntarget = [\"cord\", \"ball\", \"cross\"]\naxis = [0, 0, 2]";
     let scene =

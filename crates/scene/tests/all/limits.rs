@@ -269,7 +269,11 @@ fn bad_limits_are_refused_with_place_reason_and_remedy() {
         ("", "friction = { coulomb = 1, load = { mu = -0.1, radius = 1 } }", ["`mu`", "≥ 0"]),
         ("", "friction = { coulomb = 1, load = { mu = 1, radius = -1 } }", ["`radius`", "≥ 0"]),
         ("", "friction = { load = { mu = 1, radius = 1 } }", ["has no `coulomb`", "N·m"]),
-        ("friction = { coulomb = 1, load = { mu = 1, radius = 1 } }", "", ["no key `radius`", "mu"]),
+        (
+            "friction = { coulomb = 1, load = { mu = 1, radius = 1 } }",
+            "",
+            ["no key `radius`", "mu"],
+        ),
         ("friction = { coulomb = 0, load = { mu = 1 } }", "", ["too small", "a number > 0"]),
         (
             "",
@@ -294,7 +298,8 @@ fn friction_with_a_load_is_a_law() {
         scene(&of(slide), &of(turn)).unwrap_or_else(|said| panic!("{said}"))
     };
     let laws = |scene: &Scene| dbd_scene::interactions(scene).iter().map(|law| law.law).collect();
-    let loaded: Vec<_> = laws(&with(", load = { mu = 0.1 }", ", load = { mu = 0.1, radius = 0.01 }"));
+    let loaded: Vec<_> =
+        laws(&with(", load = { mu = 0.1 }", ", load = { mu = 0.1, radius = 0.01 }"));
     assert_eq!(loaded, ["slide-friction-load", "hinge-friction-load"]);
     let free: Vec<_> = laws(&with("", ""));
     assert_eq!(free, ["slide-friction", "hinge-friction"]);

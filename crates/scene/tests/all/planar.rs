@@ -341,6 +341,12 @@ fn a_planar_scene_that_leaves_its_plane_is_refused_with_the_place_and_by_how_muc
              from the normal",
         ),
         (
+            pinned(PLACE, AT, "")
+                + "[[input]]\nname = \"tilt\"\ntype = \"gravity\"\naxis = [1, 0, 1]\n",
+            "[1, 0, 1]",
+            "`axis` of input `tilt` leaves the plane z = 0: its axis is tilted by 45 degrees",
+        ),
+        (
             pinned(PLACE, AT, "") + "[[load]]\nbody = \"arm\"\nforce = [1, 0, -2]\n",
             "[1, 0, -2]",
             "`force` of load 1 leaves the plane z = 0: -2 N along its normal",

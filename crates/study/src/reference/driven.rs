@@ -95,6 +95,8 @@ pub enum InputKind {
     JointForce(End, Point, Vector3<f64>),
     /// A tension between two points.
     Actuator(Pair),
+    /// A field of gravity along a direction, on bodies of these masses \[kg\].
+    Gravity(Vec<f64>, Vector3<f64>),
 }
 
 impl Element for Input {
@@ -126,6 +128,11 @@ impl Element for Input {
                 let deformation = pair.at(at);
                 let along = deformation.displacement.try_normalize(0.0).unwrap_or_default();
                 deformation.pull(along * value, wrenches);
+            }
+            InputKind::Gravity(masses, direction) => {
+                for (wrench, mass) in wrenches.iter_mut().zip(masses) {
+                    wrench.force += direction * (value * mass);
+                }
             }
         }
     }

@@ -282,6 +282,10 @@ fn input_kind<T: Terms<F64>>(
         KernelInput::Actuator { group, element } => {
             InputKind::Actuator(pair(model, &model.groups[usize::from(group)], element.into()))
         }
+        KernelInput::Gravity { direction } => {
+            let masses = model.bodies.iter().map(|body| body.mass).collect();
+            InputKind::Gravity(masses, Vector3::from(direction.to_f64()))
+        }
         KernelInput::Signal | KernelInput::Anchor { .. } => return None,
     })
 }

@@ -74,6 +74,7 @@ fn required_of(table: &str, kind: &str) -> Vec<&'static str> {
         ("joint", "translational") => &["at", "axis", "span", "gauge", "offset"],
         ("joint", "fixed") => &["at", "axis", "span", "arm"],
         ("input", "force" | "torque") => &["body", "axis"],
+        ("input", "gravity") => &["axis"],
         ("input", "anchor") => &["target", "axis"],
         ("input", "drive") => &["target", "mode"],
         ("input", "signal") => &[],

@@ -7,10 +7,10 @@
 use dbd_kernel::laws::{
     Bushing, BushingCurves, BushingMatrix, BushingMaxwell, Coupling, DistanceDamper,
     DistanceSpring, DistanceStop, DistanceWinch, EndStop, HingeActuator, HingeDamper, HingeDrive,
-    HingeDriveDq,
-    HingeDriveFriction, HingeFriction, HingeFrictionLoad, HingeSensor, HingeServo, HingeSpring, HingeStop,
-    PlaneContact, SlideActuator, SlideDrive, SlideDriveFriction, SlideFriction, SlideFrictionLoad, SlideSensor,
-    SlideServo, SoftDistanceStop, SoftEndStop, SoftHingeStop, SphereContact, WheelContact,
+    HingeDriveDq, HingeDriveFriction, HingeFriction, HingeFrictionLoad, HingeSensor, HingeServo,
+    HingeSpring, HingeStop, PlaneContact, SlideActuator, SlideDrive, SlideDriveFriction,
+    SlideFriction, SlideFrictionLoad, SlideSensor, SlideServo, SoftDistanceStop, SoftEndStop,
+    SoftHingeStop, SphereContact, WheelContact,
 };
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
