@@ -174,7 +174,9 @@ fn a_snapshot_keeps_the_load() {
         let mut other = instance(&text, 1e-4, precision);
         other.restore(&saved).unwrap();
         assert_eq!(value(&one, "load"), value(&other, "load"), "{precision}");
-        [&mut one, &mut other].map(|run| run.advance(500).unwrap());
+        for run in [&mut one, &mut other] {
+            run.advance(500).unwrap();
+        }
         assert_eq!(one.hash(), other.hash(), "{precision}");
     }
 }

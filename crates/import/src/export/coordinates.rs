@@ -189,6 +189,11 @@ impl Reader<'_> {
                 self.all[joint].damping += number("viscous");
                 None
             }
+            ("hinge-friction-load" | "slide-friction-load", Some((joint, _))) => {
+                self.all[joint].friction += number("coulomb");
+                self.all[joint].damping += number("viscous");
+                Some((Lack::Spring, ": all but its friction without load"))
+            }
             ("hinge-damper", Some((joint, _))) => {
                 self.all[joint].damping += number("damping");
                 None
