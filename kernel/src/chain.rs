@@ -57,9 +57,6 @@ impl<R: Real> Errors<R> {
     }
 }
 
-/// 1.5/ε: the last place of numbers near it is 1.
-const WHOLE: Constant = Constant { double: 6_755_399_441_055_744.0, single: 12_582_912.0 };
-
 /// A value within bounds.
 #[inline(always)]
 #[must_use]
@@ -68,14 +65,16 @@ pub fn limited<R: Real>(value: R, [least, most]: [R; 2]) -> R {
     R::pick(most.less_than(value), most, value)
 }
 
-/// The nearest integer, ties to even; a number with fewer than two binary places is unchanged.
-#[inline]
+/// 1/ε: from here on every number is an integer; below, the last place of the sum with it is 1.
+const WHOLE: Constant = Constant { double: 4_503_599_627_370_496.0, single: 8_388_608.0 };
+
+/// The nearest integer, ties to even. By additions: `core` has no rounding.
+#[inline(always)]
 #[must_use]
 pub fn rounded<R: Real>(value: R) -> R {
     let whole = R::constant(WHOLE);
-    let near = (value + whole) - whole;
-    let quarter = R::HALF * R::HALF;
-    R::pick(value.abs().less_than(quarter * whole), near, value)
+    let away = R::pick(value.less_than(R::ZERO), -whole, whole);
+    R::pick(value.abs().less_than(whole), (value + away) - away, value)
 }
 
 /// The times of samples at a fixed period.

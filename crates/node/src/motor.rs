@@ -6,6 +6,7 @@
 //! the step, so that the impulse is exact too. The coefficients are computed at wiring, by libm in double precision on
 //! every machine.
 
+use dbd_kernel::chain::limited;
 use dbd_kernel::geometry::Geometry;
 use dbd_kernel::index::InputIndex;
 use dbd_kernel::real::Real as _;
@@ -219,13 +220,14 @@ impl<P: Geometry<Real: Number>> Motor<P> {
             None => P::Real::ZERO,
         };
         let target = match constants.most {
-            Some(most) => target.limited(-most, most),
+            Some(most) => limited(target, [-most, most]),
             None => target,
         };
         let off = target - self.current;
         let mean = self.current + constants.mean * off;
         self.current = self.current + constants.way * off;
-        let slowed = (speed * constants.per_friction_speed).limited(-P::Real::ONE, P::Real::ONE);
+        let one = P::Real::ONE;
+        let slowed = limited(speed * constants.per_friction_speed, [-one, one]);
         let torque = constants.torque_constant * mean - constants.friction * slowed;
         torque * constants.ratio
     }

@@ -1,17 +1,14 @@
 //! Conversion of a plant's numbers to integers for registers.
 //!
-//! `x => nearest integer, x rounded down`. By additions only: `core` has no rounding, and libm's would be a call where
-//! the FPU needs two instructions.
+//! `x => nearest integer, x rounded down`.
 
 use dbd_kernel::Real;
+use dbd_kernel::chain::rounded;
 
 /// A number that a sensor can turn into counts.
 pub trait Number: Real {
     /// The nearest integer, ties to even; saturates, 0 for NaN.
     fn nearest(self) -> i32;
-
-    /// The nearest integer as a number, ties to even.
-    fn rounded(self) -> Self;
 
     /// The largest integer not above; saturates, 0 for NaN.
     #[inline(always)]
@@ -19,56 +16,19 @@ pub trait Number: Real {
         let whole = self.nearest();
         if Self::from_i32(whole) > self { whole.saturating_sub(1) } else { whole }
     }
-
-    /// Clamps to two bounds.
-    #[inline(always)]
-    fn limited(self, least: Self, most: Self) -> Self {
-        if self < least {
-            least
-        } else if self > most {
-            most
-        } else {
-            self
-        }
-    }
 }
 
 impl Number for f32 {
     #[inline(always)]
     fn nearest(self) -> i32 {
-        self.rounded() as i32
-    }
-
-    #[inline(always)]
-    fn rounded(self) -> Self {
-        // From 2^23 on every number is an integer; below, the sum's last place is 1.
-        const WHOLE: f32 = 8_388_608.0;
-        if (0.0..WHOLE).contains(&self) {
-            (self + WHOLE) - WHOLE
-        } else if (-WHOLE..0.0).contains(&self) {
-            (self - WHOLE) + WHOLE
-        } else {
-            self
-        }
+        rounded(self) as i32
     }
 }
 
 impl Number for f64 {
     #[inline(always)]
     fn nearest(self) -> i32 {
-        self.rounded() as i32
-    }
-
-    #[inline(always)]
-    fn rounded(self) -> Self {
-        const WHOLE: f64 = 4_503_599_627_370_496.0;
-        if (0.0..WHOLE).contains(&self) {
-            (self + WHOLE) - WHOLE
-        } else if (-WHOLE..0.0).contains(&self) {
-            (self - WHOLE) + WHOLE
-        } else {
-            self
-        }
+        rounded(self) as i32
     }
 }
 
