@@ -69,8 +69,9 @@ fn a_weight_across_the_axis_brakes_a_rotor() {
         assert!((across / torque - 1.0).abs() < near, "{precision}: {across} {torque}");
         let tilted = of([0.6 * G, 0.0, -0.8 * G], LOADED);
         assert!((tilted / (0.6 * torque) - 1.0).abs() < near, "{precision}: {tilted}");
+        // The last digits of a force have a part across, whatever its sign.
         let along = of([0.0, 0.0, -G], LOADED);
-        assert!(along.abs() < 1e-3 * torque, "{precision}: {along}");
+        assert!(along.abs() < 5.0 * near * torque, "{precision}: {along}");
         let both = LOADED.replace("coulomb = 0, breakaway = 1e-6", "coulomb = 0.02");
         let both = of([0.0, -G, 0.0], &both);
         assert!((both / (torque + 0.02) - 1.0).abs() < near, "{precision}: {both}");
@@ -190,7 +191,7 @@ pub(crate) fn cases() -> Vec<Case> {
             what: "rate 1 s after 30 rad/s, load by centrifugal force",
             unit: "rad/s",
             exact: centrifugal(1.0),
-            step: 4e-4,
+            step: 1e-4,
             near: 1e-3,
             found: Box::new(unbalanced),
         },
