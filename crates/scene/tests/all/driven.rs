@@ -193,8 +193,8 @@ fn gravity_has_a_direction_in_the_world() {
     assert_eq!(found.model.inputs[0].kind, InputKind::Gravity { direction });
     assert_eq!((found.model.inputs[0].value, found.inputs[0].unit), (0.5, "m/s²"));
     let source = dbd_scene::export::model::<f32>(&found);
-    let part =
-        "Input { kind: InputKind::Gravity { direction: Vec3::new(0.0, 0.0, -1.0) }, value: 0.5";
+    let part = "Input { kind: InputKind::Gravity { direction: Vec3::new(f32::from_bits(0x00000000), \
+                f32::from_bits(0x00000000), f32::from_bits(0xbf800000)) }, value: f32::from_bits(0x3f000000)";
     assert!(source.contains(part), "{source}");
     for (keys, part) in [("", "`axis`"), ("axis = [0, 0, 1]\nbody = \"arm\"", "`body`")] {
         let text = input("tilt", &format!("type = \"gravity\"\n{keys}"));
