@@ -6,13 +6,11 @@ use dbd_kernel::{Quaternion, Vec3};
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
-use crate::interaction::of_drives::Constants;
+use crate::interaction::common::{Constants, InputName, JointName};
 use crate::interaction::of_joints::{OfJoint, limit};
 use crate::joints::JointPlace;
-use crate::nearest::nearest;
 use crate::pair::Pair;
 use crate::points::{Heading, PlaceOf};
-use crate::shortened::shortened;
 use crate::text::{Kind, Number, Table, Value};
 
 /// The owner of a table.
@@ -232,52 +230,6 @@ impl FieldSource for Reading<'_, '_> {
 
     fn terms(&mut self, _: &Field) -> Option<[Option<Term>; MAX_TERMS]> {
         if let Of::Coupling(terms, _) = &self.of { Some(**terms) } else { None }
-    }
-}
-
-/// The name of an input.
-pub(super) struct InputName<'a>(pub(super) &'a [String]);
-
-impl Kind for InputName<'_> {
-    type Output = u32;
-
-    fn expected(&self) -> String {
-        "the name of an input".into()
-    }
-
-    fn read(&self, value: &Value<'_>) -> Result<u32, SceneError> {
-        let name = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
-        let row = self.0.iter().position(|known| known == name);
-        row.and_then(|row| u32::try_from(row).ok()).ok_or_else(|| {
-            let help = match nearest(name, self.0.iter().map(String::as_str)) {
-                Some(meant) => format!("did you mean \"{meant}\"?"),
-                None => "name an input of the type \"signal\" or of another type".into(),
-            };
-            value.refuse_with(&format!("names no input: \"{}\"", shortened(name)), help)
-        })
-    }
-}
-
-/// The name of a joint.
-struct JointName<'a>(&'a [(String, usize)]);
-
-impl Kind for JointName<'_> {
-    type Output = usize;
-
-    fn expected(&self) -> String {
-        "the name of a joint".into()
-    }
-
-    fn read(&self, value: &Value<'_>) -> Result<usize, SceneError> {
-        let name = value.get().as_str().ok_or_else(|| value.wrong_type(&self.expected()))?;
-        let group = self.0.iter().find(|(known, _)| known == name).map(|(_, group)| *group);
-        group.ok_or_else(|| {
-            let help = match nearest(name, self.0.iter().map(|(known, _)| known.as_str())) {
-                Some(meant) => format!("did you mean \"{meant}\"?"),
-                None => "name a joint between the two bodies".into(),
-            };
-            value.refuse_with(&format!("names no joint: \"{}\"", shortened(name)), help)
-        })
     }
 }
 

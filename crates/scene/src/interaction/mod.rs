@@ -2,6 +2,7 @@
 //!
 //! `tables => rows of laws`.
 
+mod common;
 mod field;
 mod of_chains;
 mod of_couplings;

@@ -6,7 +6,7 @@
 use dbd_kernel::random::Stream;
 
 use crate::error::SceneError;
-use crate::interaction::of_drives::Constants;
+use crate::interaction::common::Constants;
 use crate::joints::JointPlace;
 use crate::target::{ElementName, Elements, Kinds, Target};
 use crate::text::{Number, Numbers, Table, Text};

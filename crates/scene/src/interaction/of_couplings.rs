@@ -8,7 +8,7 @@ use dbd_kernel::{Quaternion, Vec3};
 
 use crate::assembly::Assembly;
 use crate::error::SceneError;
-use crate::interaction::of_drives::Constants;
+use crate::interaction::common::Constants;
 use crate::joints::JointPlace;
 use crate::known::freedom;
 use crate::pair::Pair;

@@ -5,7 +5,7 @@
 //! ratio.
 
 use crate::error::SceneError;
-use crate::interaction::field::InputName;
+use crate::interaction::common::{Constants, InputName, Mode};
 use crate::interaction::of_windings::{AxesWinding, Winding, has_axes};
 use crate::joints::JointPlace;
 use crate::known::freedom;
@@ -26,31 +26,6 @@ pub(crate) const SHAFT_FRICTION: &[&str] = &["coulomb", "viscous"];
 
 /// The keys of its gear.
 pub(crate) const GEAR: &[&str] = &["stiffness", "damping", "play"];
-
-/// The quantity of its input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Mode {
-    Position,
-    Velocity,
-    Torque,
-    Current,
-    Voltage,
-}
-
-impl Mode {
-    const ALL: [Self; 5] =
-        [Self::Position, Self::Velocity, Self::Torque, Self::Current, Self::Voltage];
-    const TURN: [&str; 5] = ["position", "velocity", "torque", "current", "voltage"];
-    const TRAVEL: [&str; 5] = ["position", "velocity", "force", "current", "voltage"];
-
-    fn is_wound(self) -> bool {
-        matches!(self, Self::Current | Self::Voltage)
-    }
-
-    fn is_servo(self) -> bool {
-        matches!(self, Self::Position | Self::Velocity)
-    }
-}
 
 /// Names and types of all inputs, in the scene's order.
 pub(super) struct OtherInputs {
@@ -352,20 +327,5 @@ impl Driven<'_> {
         constants.add("coulomb", coulomb);
         constants.add("viscous", viscous);
         Ok(coulomb > 0.0 || viscous > 0.0)
-    }
-}
-
-/// Constants of a law by field; the others have the defaults of the law.
-#[derive(Default)]
-pub(super) struct Constants(Vec<(&'static str, f64)>);
-
-impl Constants {
-    pub(super) fn add(&mut self, field: &'static str, number: f64) {
-        self.0.push((field, number));
-    }
-
-    /// The constant of a field.
-    pub(super) fn get(&self, field: &str) -> Option<f64> {
-        self.0.iter().find(|(known, _)| *known == field).map(|(_, number)| *number)
     }
 }

@@ -3,7 +3,7 @@
 //! `table => constants at the motor's shaft`.
 
 use crate::error::SceneError;
-use crate::interaction::of_drives::{Constants, Mode};
+use crate::interaction::common::{Constants, Mode};
 use crate::text::{Kind, Number, Table, Value};
 
 /// The keys of a winding of one current.
