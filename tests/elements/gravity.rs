@@ -128,8 +128,7 @@ fn tilting_gravity_moves_as_forces_at_the_centres_of_mass() {
             run.advance_to(2.0).unwrap();
             ["b0.x", "b0.y", "b1.x", "b1.y"].map(|name| value(&run, name))
         };
-        let [by_gravity, by_forces, still] =
-            [&by_gravity(), &by_forces(masses), ""].map(|drive| places(drive));
+        let [by_gravity, by_forces, still] = [&by_gravity(), &by_forces(masses), ""].map(places);
         let off = |other: [f64; 4]| {
             other.iter().zip(by_forces).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         };

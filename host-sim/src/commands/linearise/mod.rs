@@ -127,7 +127,7 @@ pub fn linearise(
     let linear = instance.linearise(&options)?;
     let report = LinearReport::of(found, &instance, linear, states.is_some())?;
     if let Some((file, format)) = out {
-        replace(file, &format.text(&report), (&format.head(), "linearise"))?;
+        replace(file, &format.text(&report), (format.head(), "linearise"))?;
     }
     Ok(report)
 }
