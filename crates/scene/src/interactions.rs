@@ -1,6 +1,6 @@
 //! Interactions of a scene: laws, bodies, geometry, and state at t = 0.
 //!
-//! `scene => interactions`. The geometry is that which a law writes to a [`FieldSink`].
+//! `scene => interactions`. Geometry and numbers are those which a law writes to a [`FieldSink`].
 
 use dbd_kernel::laws::{
     CoordinateKind, Field, FieldSink, Instant, Laws as _, Ldl, MAX_TERMS, Row, Term,
@@ -29,9 +29,19 @@ pub struct InteractionInfo {
     pub normal: Option<[f64; 3]>,
     /// \[1\] unit axis, in the axes of A.
     pub axis: Option<[f64; 3]>,
+    /// The numbers of its law by name, as given; units as in [`KnownLaw::fields`](crate::laws::KnownLaw::fields).
+    pub numbers: Vec<(&'static str, f64)>,
+    /// The terms of a coupling.
+    pub terms: Vec<Term>,
 }
 
 impl InteractionInfo {
+    /// A number of its law, 0 where it has none of this name.
+    #[must_use]
+    pub fn number(&self, name: &str) -> f64 {
+        self.numbers.iter().find(|(of, _)| *of == name).map_or(0.0, |(_, number)| *number)
+    }
+
     /// Its name in the scene, if any.
     #[must_use]
     pub fn name(&self) -> Option<&str> {
@@ -60,7 +70,7 @@ pub fn interactions(scene: &Scene) -> Vec<InteractionInfo> {
             let label = scene.law_names.get(found.len()).cloned().unwrap_or_default();
             let mut shape = Shape::default();
             source.write(row, &mut shape);
-            let Shape { points, normal, axis, mut further } = shape;
+            let Shape { points, normal, axis, mut further, numbers, terms } = shape;
             further.retain(|body| !bodies.contains(body));
             let law = source.name();
             found.push(InteractionInfo {
@@ -72,6 +82,8 @@ pub fn interactions(scene: &Scene) -> Vec<InteractionInfo> {
                 points,
                 normal,
                 axis,
+                numbers,
+                terms,
             });
         }
     }
@@ -104,17 +116,21 @@ fn at_start(law: &dyn Row<F64>, instant: Instant<'_, F64>) -> AtStart {
     start
 }
 
-/// Collects the geometry of a row.
+/// Collects the geometry and the numbers of a row.
 #[derive(Default)]
 struct Shape {
     points: Option<[[f64; 3]; 2]>,
     normal: Option<[f64; 3]>,
     axis: Option<[f64; 3]>,
     further: Vec<BodyIndex>,
+    numbers: Vec<(&'static str, f64)>,
+    terms: Vec<Term>,
 }
 
 impl FieldSink for Shape {
-    fn number(&mut self, _: &Field, _: f64) {}
+    fn number(&mut self, field: &Field, value: f64) {
+        self.numbers.push((field.name, value));
+    }
     fn count(&mut self, _: &Field, _: u32) {}
     fn points(&mut self, _: &Field, points: [[f64; 3]; 2]) {
         self.points.get_or_insert(points);
@@ -129,6 +145,7 @@ impl FieldSink for Shape {
     fn matrix(&mut self, _: &Field, _: &Ldl<f64>) {}
     // It is drawn at its first joint.
     fn terms(&mut self, field: &Field, terms: &[Option<Term>; MAX_TERMS]) {
+        self.terms = terms.iter().flatten().copied().collect();
         for body in terms.iter().flatten().flat_map(|term| term.bodies) {
             if !body.is_world() && !self.further.contains(&body) {
                 self.further.push(body);

@@ -5,8 +5,7 @@
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::laws::CoordinateKind;
 use dbd_kernel::{BodyIndex, F64, Vec3};
-use dbd_scene::Scene;
-use dbd_scene::laws::RowConstants;
+use dbd_scene::{InteractionInfo, Scene};
 use nalgebra::Vector3;
 
 use super::lack::{Lack, LeftOut};
@@ -152,32 +151,30 @@ impl Reader<'_> {
 
     fn laws(&mut self) {
         let scene = self.scene;
-        for (row, name) in scene.law_names().iter().enumerate() {
-            let Some(constants) = scene.model.laws.constants(row) else { continue };
+        for (row, law) in dbd_scene::interactions(scene).iter().enumerate() {
             let Some((table, number)) = scene.table_of_interaction(row) else { continue };
             let line = scene.line_of_interaction(row);
             let lack = match table {
-                "coupling" => self.couple(&constants).err(),
-                "input" => self.drive(&constants, number),
-                _ => self.law(&constants),
+                "coupling" => self.couple(law).err(),
+                "input" => self.drive(law, number),
+                _ => self.law(law),
             };
             if let Some((kind, why)) = lack {
-                self.lack(kind, line, format!("{name}{why}"));
+                self.lack(kind, line, format!("{}{why}", law.label));
             }
         }
     }
 
     /// A law of a joint, or one between two bodies; why it has no counterpart.
-    fn law(&mut self, law: &RowConstants) -> Option<(Lack, &'static str)> {
-        let number = |name: &str| law.number(name).unwrap_or(0.0);
+    fn law(&mut self, law: &InteractionInfo) -> Option<(Lack, &'static str)> {
         let motion = if law.law.contains("hinge") { Motion::Turn } else { Motion::Slide };
-        let joint = law.axis.and_then(|axis| self.joint(motion, law.bodies, axis));
+        let joint = axis_of(law).and_then(|axis| self.joint(motion, law.bodies, axis));
         match (law.law, joint) {
             (
                 "hinge-stop" | "soft-hinge-stop" | "end-stop" | "soft-end-stop",
                 Some((joint, sign)),
             ) => {
-                let mut range = [number("from"), number("to")].map(|end| sign * end);
+                let mut range = [law.number("from"), law.number("to")].map(|end| sign * end);
                 range.sort_by(f64::total_cmp);
                 let of = &mut self.all[joint].range;
                 let [from, to] = of.unwrap_or([-f64::INFINITY, f64::INFINITY]);
@@ -185,17 +182,17 @@ impl Reader<'_> {
                 None
             }
             ("hinge-friction" | "slide-friction", Some((joint, _))) => {
-                self.all[joint].friction += number("coulomb");
-                self.all[joint].damping += number("viscous");
+                self.all[joint].friction += law.number("coulomb");
+                self.all[joint].damping += law.number("viscous");
                 None
             }
             ("hinge-friction-load" | "slide-friction-load", Some((joint, _))) => {
-                self.all[joint].friction += number("coulomb");
-                self.all[joint].damping += number("viscous");
+                self.all[joint].friction += law.number("coulomb");
+                self.all[joint].damping += law.number("viscous");
                 Some((Lack::Spring, ": all but its friction without load"))
             }
             ("hinge-damper", Some((joint, _))) => {
-                self.all[joint].damping += number("damping");
+                self.all[joint].damping += law.number("damping");
                 None
             }
             (law, _) if law.contains("contact") => Some((Lack::Contact, "")),
@@ -205,9 +202,9 @@ impl Reader<'_> {
     }
 
     /// A drive: its torque at the joint.
-    fn drive(&mut self, law: &RowConstants, input: usize) -> Option<(Lack, &'static str)> {
+    fn drive(&mut self, law: &InteractionInfo, input: usize) -> Option<(Lack, &'static str)> {
         let motion = if law.law.contains("hinge") { Motion::Turn } else { Motion::Slide };
-        match law.axis.and_then(|axis| self.joint(motion, law.bodies, axis)) {
+        match axis_of(law).and_then(|axis| self.joint(motion, law.bodies, axis)) {
             Some((joint, sign)) => {
                 let name = self.scene.inputs[input].name.clone();
                 // Its signal may be a voltage or a speed.
@@ -219,16 +216,15 @@ impl Reader<'_> {
         }
     }
 
-    fn couple(&mut self, law: &RowConstants) -> Result<(), (Lack, &'static str)> {
+    fn couple(&mut self, law: &InteractionInfo) -> Result<(), (Lack, &'static str)> {
         let lack = |why| (Lack::Coupling, why);
         let [first, second] = law.terms[..] else {
             return Err(lack(": not of two coordinates"));
         };
-        let number = |name: &str| law.number(name).unwrap_or(0.0);
-        if number("play") != 0.0 {
+        if law.number("play") != 0.0 {
             return Err(lack(": has play"));
         }
-        if number("pulls") == 0.0 || number("pushes") == 0.0 {
+        if law.number("pulls") == 0.0 || law.number("pushes") == 0.0 {
             return Err(lack(": acts on one side"));
         }
         let of = |term: &dbd_kernel::laws::Term<F64>| match &term.way {
@@ -252,7 +248,7 @@ impl Reader<'_> {
             return Err(lack(": the joint has another coupling"));
         }
         let [a, b] = [one * first.factor, two * second.factor];
-        let (multiplier, offset) = (-b / a, number("offset") / a);
+        let (multiplier, offset) = (-b / a, law.number("offset") / a);
         self.all[follower].mimic = Some(Mimic { joint: leader, multiplier, offset });
         Ok(())
     }
@@ -285,6 +281,11 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// The axis of a law, or its direction.
+fn axis_of(law: &InteractionInfo) -> Option<[f64; 3]> {
+    law.axis.or(law.normal)
 }
 
 /// Whether an end of a range bounds anything.

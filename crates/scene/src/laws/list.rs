@@ -14,7 +14,6 @@ use dbd_kernel::laws::{Act, DamperPass, Instant, Laws, Need, Row};
 use dbd_kernel::words::{Word, WordSource, WordVisitor};
 use dbd_kernel::{BodyIndex, Geometry};
 
-use crate::laws::constants::RowConstants;
 use crate::laws::rows::{Rows, of_bits};
 use crate::laws::source::SourceRows;
 
@@ -82,16 +81,6 @@ impl<P: Geometry> LawList<P> {
     /// The laws with the number of dampers of each row.
     pub(crate) fn tables_with_dampers(&self) -> impl Iterator<Item = (&dyn SourceRows, usize)> {
         self.tables.iter().map(|table| (&*table.source, table.rows.dampers()))
-    }
-
-    /// The constants of a row over all tables, as given in the scene.
-    #[must_use]
-    pub fn constants(&self, row: usize) -> Option<RowConstants> {
-        let is_here = |(table, [before, ..]): &(&Table<P>, [usize; 3])| {
-            (*before..before + table.rows.count()).contains(&row)
-        };
-        let (table, [before, ..]) = self.each().find(is_here)?;
-        RowConstants::of(&*table.source, row - before)
     }
 
     /// Whether the list has no table.

@@ -3,7 +3,6 @@
 //! A user's crate registers custom laws with [`laws!`](crate::laws!), a program with [`register`] before it reads
 //! scenes.
 
-mod constants;
 mod kit;
 mod known;
 mod linked;
@@ -11,7 +10,6 @@ mod list;
 mod rows;
 mod source;
 
-pub use constants::RowConstants;
 #[doc(hidden)]
 pub use inventory::submit;
 pub use kit::{Poses, hold};

@@ -90,10 +90,12 @@ pub(super) fn torsions(scene: &Scene, mechanism: &Mechanism, pivots: &Pivots) ->
         .collect()
 }
 
-/// The interactions whose law has points or an axis.
+/// The interactions whose law has points or an axis; sensors exert no force.
 pub(super) fn interactions(scene: &Scene, pivots: &Pivots) -> Vec<InteractionMark> {
     let infos = dbd_scene::interactions(scene).into_iter();
-    let has_place = |info: &InteractionInfo| info.points.is_some() || info.axis.is_some();
+    let has_place = |info: &InteractionInfo| {
+        (info.points.is_some() || info.axis.is_some()) && !info.law.ends_with("-sensor")
+    };
     let mark = |info: InteractionInfo| {
         let [a, b] = info.bodies.map(row);
         let along = |vector| Along { body: a, vector };
