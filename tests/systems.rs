@@ -7,7 +7,7 @@ use dbd_kernel::{BodyIndex, BodyState, Geometry, ModelOwner, Quaternion, Vec3};
 use crate::turned;
 
 /// A builder with room for every test system.
-pub type Bench<P> = ModelBuilder<P, 6, 12, 60, 48, 12, 60, 6, 6, 6, 6, 12>;
+pub type Bench<P> = ModelBuilder<P, 6, 12, 60, 48, 12, 60, 6, 6, 6, 8, 12>;
 
 /// World points in the axes of a body of the bench; the ground's stay as they are.
 fn local<P: Geometry>(model: &Bench<P>, body: BodyIndex, points: &[[f64; 3]]) -> Vec<[f64; 3]> {
