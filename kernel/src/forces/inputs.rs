@@ -33,7 +33,8 @@ fn bodies_of<P: Geometry, T: Terms<P>>(
         InputKind::Actuator { group, .. } => {
             model.groups.get(group as usize).map_or([world; 2], |group| [group.a, group.b])
         }
-        InputKind::Gravity { .. } | InputKind::Signal | InputKind::Anchor { .. } => [world; 2],
+        // Others act on all bodies or on none; listed, they would leave a trap in the target's jump table.
+        _ => [world; 2],
     }
 }
 
@@ -141,7 +142,8 @@ pub(crate) fn push<P: Geometry, T: Terms<P>>(
                 }
                 continue;
             }
-            InputKind::Signal | InputKind::Anchor { .. } => continue,
+            // Signals and anchors; as above.
+            _ => continue,
         };
         add(places, wrenches, bodies, &force_pair);
     }

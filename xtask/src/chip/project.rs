@@ -61,11 +61,19 @@ struct Controlled {
     plant: &'static str,
     /// Lines of the scene that drive its input without a controller.
     table: &'static [&'static str],
+    /// Options of its project.
+    options: &'static [&'static str],
 }
 
 const CONTROLLED: [Controlled; 2] = [
-    Controlled { name: "balance-robot", plant: "BalanceRobot", table: &[] },
-    Controlled { name: "gate-opener", plant: "GateOpener", table: &["table = ", "interpolate = "] },
+    Controlled { name: "balance-robot", plant: "BalanceRobot", table: &[], options: &[] },
+    Controlled {
+        name: "gate-opener",
+        plant: "GateOpener",
+        table: &["table = ", "interpolate = "],
+        // At rest without its controller, the gate would be given fixed point.
+        options: &["--precision", "f32"],
+    },
 ];
 
 /// A scene, and a core with double precision in hardware: a step in software takes about 190,000 instructions.
@@ -113,7 +121,7 @@ impl Controlled {
         let scene = folder.join(format!("{}.toml", self.name));
         fs::write(&scene, kept.map(|line| format!("{line}\n")).collect::<String>())?;
         let project = folder.join(format!("{}-controlled", self.name));
-        let project = written(host_sim, &project, &scene.to_string_lossy(), &[])?;
+        let project = written(host_sim, &project, &scene.to_string_lossy(), self.options)?;
         let copy = |file: &str, to: &str| fs::copy(own.join(file), project.join(to));
         copy("control.rs", "src/control.rs")?;
         copy("controller.rs", "src/controller.rs")?;
