@@ -190,6 +190,32 @@ fn what_a_urdf_cannot_hold_is_refused() {
     }
 }
 
+/// A drive lacks its rotor and an input its signal chain, each once; sensors are left out as read-outs are.
+#[test]
+fn drives_chains_and_sensors_are_named_by_what_they_lack() {
+    let file = dbd_tests::results::path("docs/examples/gate-opener/gate-opener.toml");
+    let gate = Scene::load(file).unwrap();
+    let refused = urdf(&gate, &[]).unwrap_err();
+    let kinds: Vec<Lack> = refused.items.iter().map(|item| item.kind).collect();
+    assert_eq!(kinds, [Lack::Rotor], "{refused}");
+    let chained = scene(&[
+        body("arm", [0.3, 0.0, 0.0]),
+        joint("shoulder", "revolute", ["world", "arm"], [0.0; 3], TURN),
+        "[[input]]\nname = \"motor\"\ntype = \"joint_torque\"\ntarget = \"shoulder\"\nlag = 0.01\nlimits = [-3, 2]\n\
+         [[interaction]]\nname = \"laser\"\nlaw = \"slide-sensor\"\nbetween = [\"world\", \"arm\"]\n\
+         points = [[0, 0, 0], [0, 0, 0]]\naxis = [1, 0, 0]\ndelay = 0\nseed = 0\n"
+            .to_owned(),
+    ]);
+    let refused = urdf(&chained, &[]).unwrap_err();
+    let kinds: Vec<Lack> = refused.items.iter().map(|item| item.kind).collect();
+    assert_eq!(kinds, [Lack::Input], "{refused}");
+    let text = urdf(&chained, &[Lack::Input]).unwrap().text;
+    assert!(
+        text.contains("effort=\"3.0\"") && text.contains("<actuator name=\"motor\">"),
+        "{text}"
+    );
+}
+
 /// Links without mass between two joints are several joints of one body, in rotated frames.
 #[test]
 fn links_without_mass_join_their_joints() {

@@ -157,6 +157,8 @@ impl Reader<'_> {
             let lack = match table {
                 "coupling" => self.couple(law).err(),
                 "input" => self.drive(law, number),
+                // A sensor exerts no force; it is left out as read-outs are.
+                _ if law.law.ends_with("-sensor") => None,
                 _ => self.law(law),
             };
             if let Some((kind, why)) = lack {
@@ -201,16 +203,21 @@ impl Reader<'_> {
         }
     }
 
-    /// A drive: its torque at the joint.
+    /// A drive or an input with a signal chain: its torque or force at the joint.
     fn drive(&mut self, law: &InteractionInfo, input: usize) -> Option<(Lack, &'static str)> {
         let motion = if law.law.contains("hinge") { Motion::Turn } else { Motion::Slide };
         match axis_of(law).and_then(|axis| self.joint(motion, law.bodies, axis)) {
             Some((joint, sign)) => {
                 let name = self.scene.inputs[input].name.clone();
-                // Its signal may be a voltage or a speed.
-                let effort = f64::INFINITY;
+                let has_chain = law.law.ends_with("-actuator");
+                // The signal of a drive may be a voltage or a speed.
+                let effort = match has_chain {
+                    true => law.number("least").abs().max(law.number("most").abs()),
+                    false => f64::INFINITY,
+                };
                 self.all[joint].motors.push(Motor { name, effort, sign });
-                Some((Lack::Rotor, ": all but its torque"))
+                let kind = if has_chain { Lack::Input } else { Lack::Rotor };
+                Some((kind, ": all but its torque or force"))
             }
             None => Some((Lack::Input, "")),
         }
@@ -264,8 +271,12 @@ impl Reader<'_> {
                 Some(InputKind::JointForce { a, b, axis, .. }) => {
                     self.joint(Motion::Slide, [*a, *b], axis.to_f64())
                 }
-                // Drives are among the laws.
-                Some(InputKind::Signal) if info.kind == "drive" => continue,
+                // Drives and signal chains are among the laws.
+                Some(InputKind::Signal)
+                    if ["drive", "joint_torque", "joint_force"].contains(&info.kind) =>
+                {
+                    continue;
+                }
                 _ => None,
             };
             let (name, kind) = (info.name.clone(), info.kind);

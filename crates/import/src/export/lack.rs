@@ -15,7 +15,7 @@ pub enum Lack {
     Contact,
     /// Couplings of other than two joint coordinates, with backlash or one-sided.
     Coupling,
-    /// Inputs other than forces and torques at joint coordinates.
+    /// Inputs other than forces and torques at joint coordinates, and signal chains.
     Input,
     /// Inertia of rotors, and their gears and windings.
     Rotor,
@@ -45,7 +45,9 @@ impl Lack {
             Self::Coupling => {
                 ["coupling", "couplings other than of two joint coordinates without play"]
             }
-            Self::Input => ["input", "inputs other than forces and torques at joint coordinates"],
+            Self::Input => {
+                ["input", "inputs other than forces and torques at joints, signal chains"]
+            }
             Self::Rotor => ["rotor", "inertia of rotors, with their gears and windings"],
             Self::Load => ["load", "constant forces and torques"],
         }

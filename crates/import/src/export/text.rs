@@ -86,12 +86,12 @@ impl Pen<'_> {
             self.joint(xml, joint, coordinate)?;
         }
         for (joint, coordinate) in self.tree.joints.iter().zip(coordinates) {
-            let prefix = if joint.motion == Motion::Turn { "rotation" } else { "translation" };
+            let suffix = if joint.motion == Motion::Turn { "rotation" } else { "translation" };
             for motor in &coordinate.motors {
                 element(
                     xml,
                     "transmission",
-                    &[("name", &format!("{}-{prefix}", motor.name))],
+                    &[("name", &format!("{}-{suffix}", motor.name))],
                     |xml| {
                         let text = |xml: &mut Xml<'_>, name: &str, text: &str| {
                             let text = quick_xml::events::BytesText::new(text);
