@@ -20,7 +20,7 @@ pub struct Body<S: Space> {
     pub mass: S::Real,
     /// \[kg·m²\] principal inertia (Ix, Iy, Iz) about the centre of mass, body axes, > 0.
     pub inertia: S::Moment,
-    /// \[1/kg\] inverse mass.
+    /// \[1/kg\] inverse mass; 0 of a driven body, see [`Self::driven`].
     pub inverse_mass: S::Real,
     /// \[1/(kg·m²)\] inverse inertia.
     pub inverse_inertia: S::Moment,
@@ -46,7 +46,22 @@ impl<S: Space> Body<S> {
 
     /// The same body in another precision: the stored mass and inertia are converted, the rest is derived again.
     pub fn convert<Q: Space>(&self) -> Body<Q> {
-        Body::from_f64(self.mass.to_f64(), self.inertia.to_f64())
+        let body = Body::from_f64(self.mass.to_f64(), self.inertia.to_f64());
+        if self.is_driven() { body.driven() } else { body }
+    }
+
+    /// The same body as a driven one, which inputs move and no force: of infinite mass and inertia. Its mass and inertia
+    /// are kept and act nowhere.
+    #[must_use]
+    pub fn driven(self) -> Self {
+        Self { inverse_mass: S::Real::ZERO, inverse_inertia: S::Moment::ZERO, ..self }
+    }
+
+    /// Whether it is [driven](Self::driven). Lanes have no driven bodies.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_driven(&self) -> bool {
+        S::Real::ONE_LANE && self.inverse_mass == S::Real::ZERO
     }
 }
 

@@ -8,7 +8,7 @@ use crate::elements::element::Element;
 use crate::elements::gravity;
 use crate::geometry::Geometry;
 use crate::laws::{Instant, Laws as _};
-use crate::model::{FrameOf, ModelOwner, RealOf};
+use crate::model::{FrameOf, ModelOwner, RealOf, Terms};
 use crate::pose::{Places, each_element, place_bodies, torsion_angle_of};
 use crate::real::Real;
 use crate::schedule::LoadWindow;
@@ -19,9 +19,9 @@ use crate::state::State;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct Energy<R> {
-    /// \[J\] `½·m·v² + ½·ω·I·ω` of all bodies.
+    /// \[J\] `½·m·v² + ½·ω·I·ω` of all bodies except driven ones.
     pub kinetic: R,
-    /// \[J\] `−m·g·x` of all bodies.
+    /// \[J\] `−m·g·x` of all bodies except driven ones.
     pub gravity: R,
     /// \[J\] TSDAs.
     pub tsda: R,
@@ -70,6 +70,9 @@ pub fn energy_with_extensions<M: ModelOwner>(
     let mut sum = Energy::default();
     let half = RealOf::<M>::HALF;
     for (body, state) in view.bodies.iter().zip(bodies) {
+        if M::Terms::DRIVEN && body.is_driven() {
+            continue;
+        }
         let v = M::Precision::velocity(&state.velocity);
         let w = M::Precision::spin(&state.angular_velocity);
         sum.kinetic =

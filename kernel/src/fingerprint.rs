@@ -280,6 +280,14 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
             integers(9, 0, 0);
             direction.visit(visitor);
         }
+        InputKind::Velocity { body, direction } => {
+            integers(10, body.0, 0);
+            direction.visit(visitor);
+        }
+        InputKind::AngularVelocity { body, axis } => {
+            integers(11, body.0, 0);
+            axis.visit(visitor);
+        }
         InputKind::Anchor { direction } => {
             integers(6, 0, 0);
             direction.visit(visitor);

@@ -47,7 +47,9 @@ pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> 
             | InputKind::Anchor { .. }
             | InputKind::Signal => true,
             InputKind::Force { frame, .. } => frame == LoadFrame::World,
-            InputKind::Torque { .. }
+            InputKind::Velocity { .. }
+            | InputKind::AngularVelocity { .. }
+            | InputKind::Torque { .. }
             | InputKind::JointTorque { .. }
             | InputKind::JointForce { .. } => false,
         };

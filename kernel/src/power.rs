@@ -4,18 +4,20 @@
 //! [`crate::energy`], `dE/dt = loads + inputs + ground − dampers`, whatever the pose: springs and gravity only convert
 //! energy. Not included: a jump of moved ground, which changes the energy at once.
 
+use crate::body::Body;
+use crate::elements::gravity;
 use crate::forces::{
     At, Dampers, DampersLeft, Evaluation, ExplicitDampers, Instant, Memories, Wrench,
-    evaluate_out_of_line, force_pair, push_loads_and_inputs,
+    evaluate_out_of_line, force_pair, push_loads_and_inputs, wrenches,
 };
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::{Instant as LawInstant, Laws as _};
-use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf};
+use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf, SpaceOf, Terms};
 use crate::pose::{End, Places, place_bodies};
 use crate::real::Real;
 use crate::schedule::LoadWindow;
-use crate::space::Linear as _;
+use crate::space::Linear;
 use crate::state::State;
 use crate::status::Cause;
 
@@ -25,7 +27,8 @@ use crate::status::Cause;
 pub struct Power<R> {
     /// \[W\] of loads on the bodies.
     pub loads: R,
-    /// \[W\] of inputs on the bodies: forces, torques, actuators.
+    /// \[W\] of inputs on the bodies: forces, torques, actuators; and of driven bodies on the others, minus the power of
+    /// all forces on them.
     pub inputs: R,
     /// \[W\] of moved ground through springs and dampers.
     pub ground: R,
@@ -64,7 +67,10 @@ pub fn power<M: ModelOwner>(
     push_loads_and_inputs(&view, windows.as_ref(), state.step, unmoved, wrenches.as_mut());
     let loads = into_bodies(wrenches.as_ref());
     push_loads_and_inputs(&view, &[], state.step, places, wrenches.as_mut());
-    let inputs = into_bodies(wrenches.as_ref());
+    let mut inputs = into_bodies(wrenches.as_ref());
+    if M::Terms::DRIVEN && view.bodies.iter().any(Body::is_driven) {
+        inputs = inputs - on_driven::<M>(model, state, step_size)?;
+    }
 
     // The power of springs, and of springs and dampers, on the bodies and from moved ground.
     let with = forces::<M, ExplicitDampers>(model, state, into_bodies)?;
@@ -91,6 +97,26 @@ pub fn power<M: ModelOwner>(
     let [supplied, taken] = of_drives::<M>(&view, state, frames.as_ref());
     let dampers = (whole - springs) - (with - without) + taken;
     Ok(Power { loads, inputs: inputs + supplied, ground: whole, dampers })
+}
+
+/// \[W\] the power of all forces on driven bodies except their weights, whose energy is not counted either.
+fn on_driven<M: ModelOwner>(
+    model: &M,
+    state: &State<M>,
+    step_size: f64,
+) -> Result<RealOf<M>, Cause> {
+    let all = wrenches(model, state, step_size)?;
+    let view = model.view();
+    let field = view.gravity.first().copied().unwrap_or(Linear::ZERO);
+    let rows = view.bodies.iter().zip(state.bodies.as_ref()).zip(all.as_ref());
+    let mut sum = RealOf::<M>::ZERO;
+    for ((body, state), wrench) in rows.filter(|((body, _), _)| body.is_driven()) {
+        let v = M::Precision::velocity(&state.velocity);
+        let w = M::Precision::spin(&state.angular_velocity);
+        let force = wrench.force - gravity::weight(body.mass, field);
+        sum = sum + force.dot(v) + wrench.torque.dot(w);
+    }
+    Ok(sum)
 }
 
 /// \[W\] the power of drives among the laws, and the power of dampers beyond that taken from the bodies: on the laws'

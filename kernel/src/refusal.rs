@@ -21,6 +21,8 @@ pub enum PlantError {
     /// The scheme does not support the memory of the law of this name: it steps back in time, or evaluates more than
     /// once per step.
     Memory(&'static str),
+    /// The scheme or the precision does not support driven bodies, as this one.
+    Driven(BodyIndex),
 }
 
 impl core::fmt::Display for PlantError {
@@ -33,6 +35,13 @@ impl core::fmt::Display for PlantError {
             PlantError::Plan => f.write_str("the model has no elimination order for this scheme"),
             PlantError::Memory(law) => {
                 write!(f, "the scheme does not support the memory of law `{law}`")
+            }
+            PlantError::Driven(body) => {
+                write!(
+                    f,
+                    "the scheme or the precision does not support driven bodies, as body {}",
+                    body.0
+                )
             }
             PlantError::Stiff(most) => {
                 write!(

@@ -159,15 +159,23 @@ fn sample_here<P: Geometry>(
 ) -> bool {
     let mut changed = false;
     for (input, signal) in inputs.iter().zip(signals) {
-        let range = input.knot as usize..input.knot as usize + input.knots as usize;
-        let (Some(knots), Some(steps)) = (knots.get(range.clone()), steps.get(range)) else {
-            continue;
-        };
-        let Some(now) = table(knots, steps, at) else { continue };
+        let Some(now) = self::at(input, knots, steps, at) else { continue };
         changed |= now != *signal;
         *signal = now;
     }
     changed
+}
+
+/// The signal of an input's table at a stage, `None` without a table.
+#[inline(always)]
+pub(crate) fn at<P: Geometry>(
+    input: &Input<P>,
+    knots: &[Knot<P::Real>],
+    steps: &[KnotStep<P::Real>],
+    at: StageTime<P::Real>,
+) -> Option<Signal<P::Real>> {
+    let range = input.knot as usize..input.knot as usize + input.knots as usize;
+    table(knots.get(range.clone())?, steps.get(range)?, at)
 }
 
 /// A knot counts as at a step's end within this fraction of the step: the tolerance of [`first_step`] for a time late

@@ -82,20 +82,31 @@ pub(crate) fn sample<P: Geometry>(
 ) -> bool {
     let mut changed = false;
     for (source, step) in sources.iter().zip(steps) {
-        let now = match source.law {
-            SourceLaw::Sine { amplitude, rate, offset, .. } => {
-                let (sine, cosine) = sine::<P::Real>(step.at(at).0);
-                Some(Signal { value: offset + amplitude * sine, rate: rate * cosine })
-            }
-            SourceLaw::Periodic { period } => {
-                let (knots, steps) = (source.knots_of(knots), source.knots_of(knot_steps));
-                repeated(knots, steps, step.at(at), P::Real::from_f64(period))
-            }
-            SourceLaw::Over { .. } => None,
-        };
+        let now = self::at(source, (knots, knot_steps), step, at);
         changed |= put(source, now, signals);
     }
     changed
+}
+
+/// The signal of a sine or a periodic table at a stage; `None` of a table over a sensor.
+#[inline(always)]
+pub(crate) fn at<P: Geometry>(
+    source: &Source<P>,
+    (knots, steps): (&[Knot<P::Real>], &[KnotStep<P::Real>]),
+    step: &SourceStep,
+    at: StageTime<P::Real>,
+) -> Option<Signal<P::Real>> {
+    match source.law {
+        SourceLaw::Sine { amplitude, rate, offset, .. } => {
+            let (sine, cosine) = sine::<P::Real>(step.at(at).0);
+            Some(Signal { value: offset + amplitude * sine, rate: rate * cosine })
+        }
+        SourceLaw::Periodic { period } => {
+            let (knots, steps) = (source.knots_of(knots), source.knots_of(steps));
+            repeated(knots, steps, step.at(at), P::Real::from_f64(period))
+        }
+        SourceLaw::Over { .. } => None,
+    }
 }
 
 /// Writes the present signal of a source to its input; returns whether it changed.

@@ -13,7 +13,7 @@ use crate::energy::energy;
 use crate::frequency::{bound, square_of};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::model::{ModelOwner, RealOf};
+use crate::model::{ModelOwner, RealOf, Terms};
 use crate::plant::Plant;
 use crate::real::Real;
 use crate::schemes::Scheme;
@@ -97,6 +97,9 @@ where
     let bodies = plant.model().view().bodies;
     let mut most = (0, RealOf::<H::Target>::ZERO);
     for (row, (state, body)) in plant.state().bodies.as_ref().iter().zip(bodies).enumerate() {
+        if <H::Target as ModelOwner>::Terms::DRIVEN && body.is_driven() {
+            continue;
+        }
         let BodyState { velocity, angular_velocity, .. } = state;
         let v = <H::Target as ModelOwner>::Precision::velocity(velocity);
         let w = <H::Target as ModelOwner>::Precision::spin(angular_velocity);

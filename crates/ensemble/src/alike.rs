@@ -133,6 +133,8 @@ fn input<R: Real + Named>(input: &Input<Float<R>>) -> InputShape {
         InputKind::Actuator { group, element } => (3, [group, element], LoadFrame::World),
         InputKind::Anchor { .. } => (4, [0; 2], LoadFrame::World),
         InputKind::Gravity { .. } => (7, [0; 2], LoadFrame::World),
+        InputKind::Velocity { body, .. } => (8, [body.0, 0], LoadFrame::World),
+        InputKind::AngularVelocity { body, .. } => (9, [body.0, 0], LoadFrame::World),
         InputKind::Signal => (5, [0; 2], LoadFrame::World),
     };
     (kind, of, frame, [input.knot, input.knots])

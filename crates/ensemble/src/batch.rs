@@ -4,10 +4,10 @@
 //! if it rotated too far in a step or is not finite at the end of a block: its instance then repeats the block on a
 //! scalar plant, which reports what failed and where. An unused lane runs a copy of another instance; a lane whose
 //! instance has failed continues with meaningless values. Laws are compiled for scalar instances only: instances of a
-//! model with laws are stepped one by one.
+//! model with laws or driven bodies are stepped one by one.
 
 use dbd_kernel::geometry::Named;
-use dbd_kernel::{Plant, Real, State};
+use dbd_kernel::{Body, Plant, Real, State};
 
 use crate::gather::{self, LanesModel, ModelOf};
 use crate::in_lanes::InLanes;
@@ -115,7 +115,10 @@ impl<V: Register, S: InLanes> Members<V, S> {
 
     /// A block of steps; returns whether any member still runs.
     fn block(&mut self, steps: u64) -> bool {
-        if self.plants.iter().any(|plant| !plant.model().laws.is_empty()) {
+        let alone = |model: &ModelOf<V::Number>| {
+            !model.laws.is_empty() || model.bodies.iter().any(Body::is_driven)
+        };
+        if self.plants.iter().any(|plant| alone(plant.model())) {
             let mut running = false;
             for plant in &mut self.plants {
                 running |= plant.advance(steps).is_running();

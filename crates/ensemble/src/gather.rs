@@ -195,6 +195,9 @@ fn input<'m, V: Register>(
         InputKind::JointTorque { axes, .. } => axes,
         InputKind::JointForce { point, axis, .. } => [point, axis],
         InputKind::Gravity { direction } | InputKind::Anchor { direction } => [direction; 2],
+        InputKind::Velocity { direction: axis, .. } | InputKind::AngularVelocity { axis, .. } => {
+            [axis; 2]
+        }
         InputKind::Actuator { .. } | InputKind::Signal => [Vec3::default(); 2],
     };
     let (point, axis) = (vector(|i| vectors(i)[0]), vector(|i| vectors(i)[1]));
@@ -206,6 +209,8 @@ fn input<'m, V: Register>(
         InputKind::JointTorque { a, b, .. } => InputKind::JointTorque { a, b, axes: [point, axis] },
         InputKind::JointForce { a, b, .. } => InputKind::JointForce { a, b, point, axis },
         InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
+        InputKind::Velocity { body, .. } => InputKind::Velocity { body, direction: axis },
+        InputKind::AngularVelocity { body, .. } => InputKind::AngularVelocity { body, axis },
         InputKind::Signal => InputKind::Signal,
         InputKind::Gravity { .. } => InputKind::Gravity { direction: axis },
         InputKind::Anchor { .. } => InputKind::Anchor { direction: axis },

@@ -144,7 +144,8 @@ impl Budget {
             let torque = ROUNDINGS * self.unit * (spring.stiffness + spring.preload.abs());
             push([body(spring.a), body(spring.b)], 0.0, [torque; 2]);
         }
-        let gathered = model.bodies.iter().zip(&pushed).map(|(body, [force, torque])| {
+        let moved = model.bodies.iter().zip(&pushed).filter(|(body, _)| !body.is_driven());
+        let gathered = moved.map(|(body, [force, torque])| {
             let [linear, angular] = [force * time, torque * time];
             let inertia = body.inertia.to_f64().into_iter().fold(f64::INFINITY, f64::min);
             0.5 * (linear * linear / body.mass + angular * angular / inertia)
@@ -217,6 +218,8 @@ impl Budget {
                     let rates = bodies.map(|(row, body)| body.mass * speed(Some(row))[0]);
                     most * rates.sum::<f64>() * span
                 }
+                // The work of a driven body has no bound that is known here either.
+                InputKind::Velocity { .. } | InputKind::AngularVelocity { .. } => f64::INFINITY,
                 // The energy of a drive has no bound that is known here.
                 InputKind::Signal => f64::INFINITY,
                 InputKind::Anchor { .. } => {

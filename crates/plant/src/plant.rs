@@ -119,6 +119,7 @@ macro_rules! with_scheme {
 /// [`PlantError`] if the precision cannot represent the step or an input's values, or this build does not include the
 /// method.
 pub fn plant(scene: &Scene, method: &Method, step: f64) -> Result<Box<dyn AnyPlant>, PlantError> {
+    check_driven(scene, method)?;
     check_inputs(scene, method)?;
     let Some(planar) = &scene.planar else {
         check_extents(scene, method, step)?;
@@ -156,18 +157,31 @@ pub fn check(scene: &Scene, method: &Method, step: f64) -> Result<(), PlantError
     check_stiffness(scene, method, step)
 }
 
-/// Checks that a method's precision supports a scene's interactions, and its scheme updates their internal states.
+/// Checks that a method's precision supports a scene's interactions, that its scheme updates their internal states, and
+/// that it moves driven bodies.
 ///
 /// # Errors
-/// [`PlantError::Laws`], [`PlantError::Memory`].
+/// [`PlantError::Laws`], [`PlantError::Driven`], [`PlantError::Memory`].
 pub fn check_laws(scene: &Scene, method: &Method) -> Result<(), PlantError> {
     let laws = &scene.model.laws;
     if !(laws.is_empty() || method.has_laws()) {
         return Err(PlantError::Laws { precision: method.precision_name() });
     }
+    check_driven(scene, method)?;
     match laws.memory() {
         Some((law, need)) if !method.bears(need) => {
             Err(PlantError::Memory { law, scheme: method.scheme_name() })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Checks that a method moves a scene's driven bodies.
+fn check_driven(scene: &Scene, method: &Method) -> Result<(), PlantError> {
+    let driven = scene.model.bodies.iter().position(dbd_kernel::Body::is_driven);
+    match (driven, method.without_drives()) {
+        (Some(row), Some(method)) => {
+            Err(PlantError::Driven { body: scene.body_names[row].clone(), method })
         }
         _ => Ok(()),
     }
@@ -275,6 +289,10 @@ impl New<'_> {
             kernel::PlantError::Memory(law) => {
                 PlantError::Memory { law, scheme: self.method.scheme_name() }
             }
+            kernel::PlantError::Driven(body) => PlantError::Driven {
+                body: body.0.to_string(),
+                method: self.method.without_drives().unwrap_or_default(),
+            },
             kernel::PlantError::Stiff(most) => {
                 PlantError::Stiff { most, precision: self.method.precision_name() }
             }

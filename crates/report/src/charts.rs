@@ -320,6 +320,7 @@ fn quantity_of_input(kind: &str, unit: &str) -> &'static str {
         "torque" | "joint_torque" => "torque",
         "actuator" => "tension",
         "gravity" => "gravity",
+        "velocity" | "angular_velocity" => "rate",
         "anchor" => "shift",
         "drive" | "signal" | "free_length" => quantity_of_unit(unit),
         _ => "force",

@@ -14,12 +14,13 @@ use crate::names::Names;
 use crate::orientation::{Orientation, normalised};
 use crate::points::{self, Frame, Node, Places, PrecisePlace};
 use crate::precise::Precise;
-use crate::text::{Choice, Kind as _, Number, Numbers, Table};
+use crate::text::{Choice, Kind as _, Number, Numbers, Switch, Table};
 
 pub(crate) const KEYS: &[&str] = &[
     "name",
     "mass",
     "inertia",
+    "driven",
     "position",
     "orientation",
     "velocity",
@@ -178,8 +179,10 @@ fn read(
             2.0 * libm::atan2(libm::sqrt(v.dot(v)), turn.w.abs())
         }),
     });
+    let body = Body::from_f64(mass, inertia.moments);
+    let driven = table.optional("driven", Switch)?.unwrap_or_default();
     Ok(Read {
-        body: Body::from_f64(mass, inertia.moments),
+        body: if driven { body.driven() } else { body },
         state: BodyState::from_f64(position, orientation, velocity, angular_velocity),
         turn,
         ends: link.map_or_else(Vec::new, |link| link.ends),

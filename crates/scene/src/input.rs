@@ -49,13 +49,20 @@ const TORQUE: &[&str] =
     &["target", "axis", "about", "lag", "delay", "limits", "rate_limit", "period"];
 const FORCE: &[&str] = &["target", "lag", "delay", "limits", "rate_limit", "period"];
 
-static TYPES: [InputType; 10] = [
+static TYPES: [InputType; 12] = [
     InputType { name: "force", unit: "N", keys: &["body", "point", "axis", "frame"], read: force },
     InputType { name: "torque", unit: "N·m", keys: &["body", "axis", "frame"], read: torque },
     InputType { name: "joint_torque", unit: "N·m", keys: TORQUE, read: joint_torque },
     InputType { name: "joint_force", unit: "N", keys: FORCE, read: joint_force },
     InputType { name: "actuator", unit: "N", keys: &["target"], read: actuator },
     InputType { name: "gravity", unit: "m/s²", keys: &["axis"], read: gravity },
+    InputType { name: "velocity", unit: "m/s", keys: &["body", "axis"], read: velocity },
+    InputType {
+        name: "angular_velocity",
+        unit: "rad/s",
+        keys: &["body", "axis"],
+        read: angular_velocity,
+    },
     InputType { name: "anchor", unit: "m", keys: &["target", "axis"], read: anchor },
     InputType { name: free_length::TYPE, unit: "m", keys: interaction::WINCH, read: signal },
     // Its unit is that of its mode.
@@ -213,6 +220,31 @@ fn actuator(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, 
 
 fn gravity(table: &Table<'_>, _: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
     Ok(InputKind::Gravity { direction: table.required("axis", Direction)? })
+}
+
+fn velocity(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {
+    let (body, direction) = driven(table, known)?;
+    Ok(InputKind::Velocity { body, direction })
+}
+
+fn angular_velocity(
+    table: &Table<'_>,
+    known: &mut Known<'_>,
+) -> Result<InputKind<F64>, SceneError> {
+    let (body, axis) = driven(table, known)?;
+    Ok(InputKind::AngularVelocity { body, axis })
+}
+
+/// The driven body and the `axis` of an input that moves it.
+fn driven(table: &Table<'_>, known: &Known<'_>) -> Result<(BodyIndex, Vec3<f64>), SceneError> {
+    let body = BodyName { assembly: known.assembly, world: false };
+    let (name, body) = table.required("body", body)?;
+    if !known.assembly.is_driven(body) {
+        let problem = format!("names `{name}`, which forces move");
+        let help = "set `driven = true` in its [[body]]: only inputs then move it";
+        return Err(table.refuse_value("body", &problem, help));
+    }
+    Ok((body, table.required("axis", Direction)?))
 }
 
 /// The law that reads it is another part of the scene.

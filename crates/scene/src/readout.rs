@@ -127,6 +127,10 @@ static TYPES: [ReadoutType; 11] = [
         keys: &["body", "point"],
         read: |table, known, _| {
             let (body, point) = point(table, known)?;
+            if known.assembly.is_driven(body) {
+                let help = "name a body that forces move: an accelerometer reads what they give it";
+                return Err(table.refuse_value("body", "names a driven body", help));
+            }
             Ok(Readout::Imu { body, point })
         },
     },

@@ -107,6 +107,10 @@ pub(crate) fn settle(root: &Table<'_>, scene: &mut Scene) -> Result<Settled, Sce
             format!("cannot bring `{}` to rest, which has an initial velocity", names[row]);
         return Err(refuse(problem, "use either `settle`, or velocities and `rates`"));
     }
+    if let Some(row) = scene.stepped().bodies.iter().position(Body::is_driven) {
+        let problem = format!("cannot bring `{}` to rest, which inputs move", names[row]);
+        return Err(refuse(problem, "remove `settle` and give the poses, or remove `driven`"));
+    }
     rest(scene).map_err(|restless| match restless {
         Restless::TooMany { bodies } => {
             let problem = format!("cannot bring {bodies} bodies to rest");

@@ -47,6 +47,7 @@ impl<P: Geometry, T: Terms<P>, S: Scheme + Default + 'static> Terms<P> for Terms
     const REVOLUTES: bool = T::REVOLUTES;
     const UNIVERSALS: bool = T::UNIVERSALS;
     const SOURCES: bool = T::SOURCES;
+    const DRIVEN: bool = T::DRIVEN;
 }
 
 impl<M: ModelOwner, S: Scheme + Default + 'static> ModelOwner for Alone<M, S> {

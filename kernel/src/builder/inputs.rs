@@ -46,7 +46,10 @@ impl<
     /// [`BuildError::Full`], an unknown body, a point, direction or value that is not finite.
     pub fn add_input(&mut self, kind: InputKind<P>, value: f64) -> Result<InputIndex, BuildError> {
         match &kind {
-            InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
+            InputKind::Force { body, .. }
+            | InputKind::Torque { body, .. }
+            | InputKind::Velocity { body, .. }
+            | InputKind::AngularVelocity { body, .. } => {
                 if body.row() >= self.bodies.len() {
                     return Err(BuildError::UnknownBody(*body));
                 }
@@ -66,7 +69,9 @@ impl<
                 check(finite(&P::local_to_f64(point)), Quantity::Point)?;
                 check(direction.is_finite(), Quantity::Axis)?;
             }
-            InputKind::Torque { axis, .. } => check(axis.is_finite(), Quantity::Axis)?,
+            InputKind::Torque { axis, .. } | InputKind::AngularVelocity { axis, .. } => {
+                check(axis.is_finite(), Quantity::Axis)?;
+            }
             InputKind::JointForce { point, axis, .. } => {
                 check(finite(&P::local_to_f64(point)), Quantity::Point)?;
                 check(axis.is_finite(), Quantity::Axis)?;
@@ -74,7 +79,9 @@ impl<
             InputKind::JointTorque { axes, .. } => {
                 check(axes.iter().all(|axis| axis.is_finite()), Quantity::Axis)?;
             }
-            InputKind::Gravity { direction } | InputKind::Anchor { direction } => {
+            InputKind::Gravity { direction }
+            | InputKind::Velocity { direction, .. }
+            | InputKind::Anchor { direction } => {
                 check(direction.is_finite(), Quantity::Axis)?;
             }
             InputKind::Actuator { .. } | InputKind::Signal => {}

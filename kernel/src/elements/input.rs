@@ -68,6 +68,20 @@ pub enum InputKind<P: Geometry> {
         /// Unit direction, world axes.
         direction: P::Vector,
     },
+    /// A velocity \[m/s\] of the centre of mass of a [driven](crate::Body::driven) body along a direction.
+    Velocity {
+        /// The body.
+        body: BodyIndex,
+        /// Unit direction, world axes.
+        direction: P::Vector,
+    },
+    /// An angular velocity \[rad/s\] of a [driven](crate::Body::driven) body about an axis.
+    AngularVelocity {
+        /// The body.
+        body: BodyIndex,
+        /// Unit axis, world axes.
+        axis: P::Moment,
+    },
     /// A number that laws read, see [`crate::laws::Seen::signal`]; it exerts no force itself.
     Signal,
     /// A displacement \[m\] of ground points along a direction, with its rate \[m/s\]. The points
@@ -83,7 +97,7 @@ pub enum InputKind<P: Geometry> {
 pub struct Input<P: Geometry> {
     /// The action of its signal.
     pub kind: InputKind<P>,
-    /// \[N, N·m, m/s² or m\] its value at t = 0 where no table drives it.
+    /// \[N, N·m, m/s², m/s, rad/s or m\] its value at t = 0 where no table drives it.
     pub value: P::Real,
     /// Its first knot among the model's knots.
     pub knot: u16,
@@ -144,6 +158,12 @@ impl<P: Geometry> Input<P> {
             }
             InputKind::Actuator { group, element } => InputKind::Actuator { group, element },
             InputKind::Gravity { direction } => InputKind::Gravity { direction: vector(direction) },
+            InputKind::Velocity { body, direction } => {
+                InputKind::Velocity { body, direction: vector(direction) }
+            }
+            InputKind::AngularVelocity { body, axis } => {
+                InputKind::AngularVelocity { body, axis: moment(axis) }
+            }
             InputKind::Signal => InputKind::Signal,
             InputKind::Anchor { direction } => InputKind::Anchor { direction: vector(direction) },
         };
@@ -159,7 +179,7 @@ impl<P: Geometry> Input<P> {
 pub struct Knot<R> {
     /// \[s\] the time from which it applies.
     pub time: f64,
-    /// \[N, N·m, m/s² or m\] the value at its time.
+    /// \[N, N·m, m/s², m/s, rad/s or m\] the value at its time.
     pub value: R,
     /// The value's rate \[1/s\] until the next knot; 0 where the table is held.
     pub slope: R,

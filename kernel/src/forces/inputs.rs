@@ -142,7 +142,7 @@ pub(crate) fn push<P: Geometry, T: Terms<P>>(
                 }
                 continue;
             }
-            // Signals and anchors; as above.
+            // Signals, anchors and the motion of driven bodies; as above.
             _ => continue,
         };
         add(places, wrenches, bodies, &force_pair);

@@ -150,6 +150,20 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         });
     }
 
+    /// The end of a pair that a body is, and the factor of a spring to the other end.
+    #[inline(always)]
+    fn end_of(&self, ends: [BodyIndex; 2], here: BodyIndex) -> (usize, P::Real) {
+        let end = usize::from(ends[0] != here);
+        (end, if self.is_still(ends[1 - end]) { P::Real::ONE } else { P::Real::TWO })
+    }
+
+    /// Whether no force moves an end: the ground or a driven body.
+    #[inline(always)]
+    fn is_still(&self, end: BodyIndex) -> bool {
+        let body = || self.view.bodies.get(end.row());
+        end.is_world() || (T::DRIVEN && body().is_some_and(Body::is_driven))
+    }
+
     /// Adds the contribution of a mount to the body `here`, one of its ends.
     fn add(&self, mount: Mount, here: BodyIndex, to: &mut BodyBlock<P::Real>) {
         let Self { view, places, .. } = *self;
@@ -159,7 +173,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         };
         let BodyBlock { stiffness: block, turning } = to;
         let add = |block: &mut Block<P::Real>, stiffness, other: BodyIndex, u, moment| {
-            let share = if other.is_world() { P::Real::ONE } else { P::Real::TWO };
+            let share = if self.is_still(other) { P::Real::ONE } else { P::Real::TWO };
             let n = P::moment_to_body(frame, moment);
             add_row(block, share * stiffness, scaled(body, u, n));
         };
@@ -234,7 +248,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                 view.laws.look(row, self.memories.1, &mut |law| {
                     let ends = law.bodies();
                     let Some(seen) = self.at().seen(ends) else { return };
-                    let (end, share): (_, P::Real) = end_of(ends, here);
+                    let (end, share): (_, P::Real) = self.end_of(ends, here);
                     // (Σ rᵢ)² ≤ n·Σ rᵢ²: a spring along n directions counts at most n times each.
                     let mut terms = P::Real::ONE;
                     law.each_branch(&seen, &mut |_, _| terms = terms + P::Real::ONE);
@@ -262,7 +276,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                     }
                 });
                 let Some(branch) = found else { return };
-                let (end, share): (_, P::Real) = end_of(branch.bodies, here);
+                let (end, share): (_, P::Real) = self.end_of(branch.bodies, here);
                 let mut add = |stiffness: P::Real, direction: &Direction<P::Space>| {
                     let moment = direction.moments[end];
                     add_row(block, share * stiffness, scaled(body, direction.along, moment));
@@ -283,12 +297,6 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         }
         largest_eigenvalue(stiffness)
     }
-}
-
-/// The end of a pair that a body is, and the factor of a spring to the other end.
-fn end_of<R: Real>(ends: [BodyIndex; 2], here: BodyIndex) -> (usize, R) {
-    let end = usize::from(ends[0] != here);
-    (end, if ends[1 - end].is_world() { R::ONE } else { R::TWO })
 }
 
 /// `M^-1/2·(u, n)`.

@@ -22,7 +22,8 @@ use crate::sources::SourceStep;
 /// A model whose sizes are const generics. A kind that a scene lacks has count 0, the default.
 ///
 /// `SUMS` is the number of sums that a damper pass keeps apart from the velocities, one per body, where the precision
-/// has them: `BODIES` with dampers, 0 without. Its default is the number of dampers.
+/// has them: `BODIES` with dampers, 0 without. Its default is the number of dampers. `DRIVEN` is the number of
+/// [driven](Body::driven) bodies; with 0 none of the bodies may be driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model<
     P: Geometry,
@@ -44,6 +45,7 @@ pub struct Model<
     const SUMS: usize = DAMPERS,
     const SOURCES: usize = 0,
     L = (),
+    const DRIVEN: usize = 0,
 > {
     /// Bodies in scene order.
     pub bodies: [Body<P::Space>; BODIES],
@@ -103,6 +105,7 @@ impl<
     const SUMS: usize,
     const SOURCES: usize,
     L: Laws<P>,
+    const DRIVEN: usize,
 >
     Model<
         P,
@@ -124,6 +127,7 @@ impl<
         SUMS,
         SOURCES,
         L,
+        DRIVEN,
     >
 {
     /// Checks every index of the model; in a `const` at compile time.
@@ -196,7 +200,10 @@ impl<
                 "an input's knots are there"
             );
             match &input.kind {
-                InputKind::Force { body, .. } | InputKind::Torque { body, .. } => {
+                InputKind::Force { body, .. }
+                | InputKind::Torque { body, .. }
+                | InputKind::Velocity { body, .. }
+                | InputKind::AngularVelocity { body, .. } => {
                     assert!(body.row() < BODIES, "the body of an input does not exist");
                 }
                 InputKind::JointTorque { a, b, .. } | InputKind::JointForce { a, b, .. } => {
@@ -275,6 +282,7 @@ impl<
     const SUMS: usize,
     const SOURCES: usize,
     L: Laws<P>,
+    const DRIVEN: usize,
 > ModelOwner
     for Model<
         P,
@@ -296,6 +304,7 @@ impl<
         SUMS,
         SOURCES,
         L,
+        DRIVEN,
     >
 {
     type Precision = P;
@@ -313,6 +322,7 @@ impl<
         UNIVERSALS,
         SOURCES,
         L,
+        DRIVEN,
     >;
     type PerBody<T: Copy> = [T; BODIES];
     type PerDampedBody<T: Copy> = [T; SUMS];

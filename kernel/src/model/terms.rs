@@ -37,7 +37,9 @@ pub trait Terms<P: Geometry>: 'static {
     const UNIVERSALS: bool;
     /// Sources of inputs other than tables over time.
     const SOURCES: bool;
-    /// All of these except the sources, which are not part of an evaluation.
+    /// Driven bodies.
+    const DRIVEN: bool;
+    /// All of these except sources and driven bodies, which are not part of an evaluation.
     const ALL: bool = Self::GRAVITY
         && Self::LOADS
         && Self::TSDAS
@@ -69,6 +71,7 @@ impl<P: Geometry, L: Laws<P>> Terms<P> for AllTerms<L> {
     const REVOLUTES: bool = true;
     const UNIVERSALS: bool = true;
     const SOURCES: bool = true;
+    const DRIVEN: bool = true;
 }
 
 /// Terms of a model whose counts are const generics: a kind occurs where its count is not 0.
@@ -87,6 +90,7 @@ pub struct CountedTerms<
     const UNIVERSALS: usize,
     const SOURCES: usize,
     L = (),
+    const DRIVEN: usize = 0,
 >(Named<L>);
 
 impl<
@@ -104,6 +108,7 @@ impl<
     const UNIVERSALS: usize,
     const SOURCES: usize,
     L: Laws<P>,
+    const DRIVEN: usize,
 > Terms<P>
     for CountedTerms<
         TSDAS,
@@ -119,6 +124,7 @@ impl<
         UNIVERSALS,
         SOURCES,
         L,
+        DRIVEN,
     >
 {
     type Laws = L;
@@ -135,4 +141,5 @@ impl<
     const REVOLUTES: bool = REVOLUTES > 0;
     const UNIVERSALS: bool = UNIVERSALS > 0;
     const SOURCES: bool = SOURCES > 0;
+    const DRIVEN: bool = DRIVEN > 0;
 }

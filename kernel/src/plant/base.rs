@@ -5,6 +5,7 @@
 use core::ops::Deref;
 
 use crate::attitude::Attitude as _;
+use crate::body::Body;
 use crate::damping::{DampingMode, Held, Pose, Share, find, share, weigh};
 use crate::elements::input::Input;
 use crate::elements::source::{Source, SourceLaw};
@@ -25,7 +26,7 @@ use crate::solve::{self, LumpedJoint, MatrixWeights};
 use crate::sources::{self, SourceStep};
 use crate::state::State;
 use crate::status::{Cause, Failure, Status};
-use crate::step::{Cache, Diagonal, Workspace, sample_start};
+use crate::step::{Cache, Diagonal, Workspace, drive, sample_start};
 use crate::words::{Finite, is_finite};
 
 /// A model, a step and a state.
@@ -90,6 +91,9 @@ where
         let mut diagonals = owner.per_body(Diagonal::default());
         for (diagonal, body) in diagonals.as_mut().iter_mut().zip(view.bodies) {
             *diagonal = Diagonal::new(body, h);
+            if <H::Target as ModelOwner>::Terms::DRIVEN && body.is_driven() {
+                *diagonal = Diagonal::default();
+            }
         }
         let mut windows = owner.per_load();
         for (window, load) in windows.as_mut().iter_mut().zip(view.loads) {
@@ -150,6 +154,19 @@ where
             Some((law, need)) if !bears(need) => Err(PlantError::Memory(law)),
             _ => Ok(()),
         }
+    }
+
+    /// Refuses driven bodies where a scheme or the precision does not support them.
+    ///
+    /// # Errors
+    /// [`PlantError::Driven`] with the first of them.
+    pub(crate) fn check_driven(&self, drives: bool) -> Result<(), PlantError> {
+        let held = drives && !PrecisionOf::<H>::HAS_GRAVITY_STEP;
+        if !<H::Target as ModelOwner>::Terms::DRIVEN || held {
+            return Ok(());
+        }
+        let driven = self.model.view().bodies.iter().position(Body::is_driven);
+        driven.map_or(Ok(()), |row| Err(PlantError::Driven(BodyIndex(row as u16))))
     }
 
     /// Whether anything is damped.
@@ -247,6 +264,9 @@ where
         let signals = self.state.signals.as_mut();
         sample_start(&self.model.view(), steps, start, signals, &mut self.cache);
         self.sample_sensors();
+        if <H::Target as ModelOwner>::Terms::DRIVEN {
+            drive(&self.model.view(), self.state.signals.as_ref(), self.state.bodies.as_mut());
+        }
     }
 
     /// Whether the model has tables over sensors.

@@ -55,6 +55,7 @@ where
     pub fn new(model: H, scheme: S, step_size: f64) -> Result<Self, PlantError> {
         let mut base = Base::new(model, step_size)?;
         base.check_memory(S::bears)?;
+        base.check_driven(S::DRIVES)?;
         if S::Storage::MATRIX && !base::is_planned(&*base.model) {
             return Err(PlantError::Plan);
         }
@@ -114,6 +115,7 @@ where
         let Self { base, scheme, kept, memory } = self;
         let (mut workspace, _) = base.workspace(kept);
         workspace.step = step;
+        workspace.drive_midway();
         scheme.step(&mut Stepper { workspace, memory: memory.as_mut() })
     }
 
@@ -141,6 +143,7 @@ where
         let mut stepper = Stepper { workspace, memory: memory.as_mut() };
         for _ in 0..n {
             stepper.workspace.step = *counter;
+            stepper.workspace.drive_midway();
             *counter = counter.checked_add(1).ok_or(Cause::Steps)?;
             scheme.step(&mut stepper)?;
             let Workspace { bodies, turns, h, .. } = &stepper.workspace;

@@ -82,6 +82,7 @@ impl Scheme for Dbd {
     const ORDER: u32 = 1;
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
+    const DRIVES: bool = true;
     type Memory<P: Geometry> = DbdMemory<P>;
     type Storage = NoStorage;
 

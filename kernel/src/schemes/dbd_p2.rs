@@ -31,6 +31,7 @@ impl Scheme for DbdP2 {
     const ORDER: u32 = 1;
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
+    const DRIVES: bool = true;
     type Memory<P: Geometry> = DbdMemory<P>;
     type Storage = NoStorage;
 

@@ -41,6 +41,7 @@ impl<S: Kicked> Scheme for Explicit<S> {
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Explicit;
     const ADVANCES: bool = S::ADVANCES;
+    const DRIVES: bool = S::DRIVES;
     type Memory<P: Geometry> = S::Memory<P>;
     type Storage = NoStorage;
 

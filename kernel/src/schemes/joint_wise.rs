@@ -26,6 +26,7 @@ impl<S: Kicked> Scheme for JointWise<S> {
     const ORDER_DAMPED: u32 = S::ORDER_DAMPED;
     const DAMPING: Damping = Damping::JointWise;
     const ADVANCES: bool = S::ADVANCES;
+    const DRIVES: bool = S::DRIVES;
     type Memory<P: Geometry> = S::Memory<P>;
     type Storage = DampingModes;
 

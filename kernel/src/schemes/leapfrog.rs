@@ -28,6 +28,7 @@ impl Scheme for Leapfrog {
     const ORDER_DAMPED: u32 = 2;
     const DAMPING: Damping = Damping::Sweeps;
     const ADVANCES: bool = true;
+    const DRIVES: bool = true;
     type Memory<P: Geometry> = ();
     type Storage = NoStorage;
 

@@ -54,6 +54,8 @@ pub trait Scheme: Copy {
     const SETTLES: bool = true;
     /// Whether its steps advance memories of laws: it evaluates once per step, at its end.
     const ADVANCES: bool = false;
+    /// Whether its steps move driven bodies: by one drift, or at one velocity, over the whole step.
+    const DRIVES: bool = false;
     /// \[rad\] the largest rotation of a body in a step.
     const MAX_TURN: Constant = Constant::new(MAX_TURN);
     /// \[rad\] the largest `ω·h` of a model's natural frequencies that its matrix allows in double and in single

@@ -27,6 +27,7 @@ impl Scheme for SemiImplicitEuler {
     const ORDER: u32 = 1;
     const ORDER_DAMPED: u32 = 1;
     const DAMPING: Damping = Damping::Sweeps;
+    const DRIVES: bool = true;
     type Memory<P: Geometry> = ();
     type Storage = NoStorage;
 

@@ -25,20 +25,24 @@ pub(crate) fn kick_body<P: Geometry>(
     P::spin_up(&mut state.angular_velocity, increment.angular);
 }
 
-/// Moves one body in translation, and as a free rotor of second order.
+/// Moves one body in translation, and as a free rotor of second order; a driven one about its axis of rotation.
 #[inline(always)]
-pub(crate) fn drift_body<P: Geometry>(
+pub(crate) fn drift_body<P: Geometry, T: Terms<P>>(
     state: &mut BodyState<P>,
     body: &Body<P::Space>,
     time: P::Real,
 ) {
     P::advance_position(&mut state.position, &state.velocity, time);
+    if T::DRIVEN && body.is_driven() {
+        let half = P::spin(&state.angular_velocity) * (P::Real::HALF * time);
+        return rotation::turn_by::<P>(&mut state.orientation, half);
+    }
     rotation::free_rotor::<P>(body, &mut state.orientation, &mut state.angular_velocity, time);
 }
 
 /// [`drift_body`], and the frame of the new pose.
 #[inline(always)]
-pub(crate) fn drift_to_frame<P: Geometry>(
+pub(crate) fn drift_to_frame<P: Geometry, T: Terms<P>>(
     state: &mut BodyState<P>,
     body: &Body<P::Space>,
     frame: &mut P::Frame,
@@ -50,7 +54,7 @@ pub(crate) fn drift_to_frame<P: Geometry>(
         rotation::turn_freely::<P>(body, orientation, angular_velocity, time);
         P::set_next_frame(frame, position, orientation);
     } else {
-        drift_body(state, body, time);
+        drift_body::<P, T>(state, body, time);
         P::set_frame(frame, &state.position, &state.orientation);
     }
 }
@@ -67,5 +71,5 @@ pub(super) fn move_apart<P: Geometry, T: Terms<P>>(
 ) {
     let apply_gravity = if P::HAS_GRAVITY_STEP && T::GRAVITY { Some(apply_gravity) } else { None };
     kick_body(state, wrench, diagonal, (P::Real::HALF, apply_gravity));
-    drift_to_frame(state, body, frame, time);
+    drift_to_frame::<P, T>(state, body, frame, time);
 }

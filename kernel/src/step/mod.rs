@@ -6,10 +6,12 @@
 
 mod body;
 mod damped;
+mod driven;
 mod solved;
 
 use body::move_apart;
 pub(crate) use body::{drift_body, drift_to_frame, kick_body};
+pub(crate) use driven::drive;
 
 use core::ops::{Deref, DerefMut};
 
@@ -193,6 +195,19 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         let start = StageTime { step, part: P::Real::ZERO, h: self.h };
         let steps = (self.knots, self.sources);
         sample_start(&self.model, steps, start, self.signals, self.cache);
+        if T::DRIVEN {
+            drive(&self.model, self.signals, self.bodies);
+        }
+    }
+
+    /// Sets the velocities of driven bodies for this step.
+    #[inline(always)]
+    pub(crate) fn drive_midway(&mut self) {
+        if T::DRIVEN {
+            let steps = (self.knots, self.sources);
+            let at = (self.step, self.h);
+            driven::drive_midway(&self.model, steps, at, self.signals, self.bodies);
+        }
     }
 
     /// Samples the tables of inputs at the time of a stage, at `part` of this step, 0 to 1. A step begins with part 0;
@@ -365,7 +380,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         self.cache.fresh = false;
         self.cache.ready = false;
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
-            drift_body(state, body, time);
+            drift_body::<P, T>(state, body, time);
         }
     }
 
@@ -379,7 +394,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
         for ((state, body), (wrench, diagonal)) in rows {
             kick_body(state, wrench, diagonal, (scale, apply_gravity));
-            drift_body(state, body, time);
+            drift_body::<P, T>(state, body, time);
         }
     }
 
@@ -391,7 +406,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         self.cache.moved = true;
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         for ((state, body), frame) in rows {
-            drift_to_frame(state, body, frame, time);
+            drift_to_frame::<P, T>(state, body, frame, time);
         }
     }
 
@@ -415,7 +430,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
                 move_apart::<P, T>(state, body, frame, (wrench, diagonal), apply_gravity, time);
             } else {
                 kick_body(state, wrench, diagonal, (scale, apply_gravity));
-                drift_to_frame(state, body, frame, time);
+                drift_to_frame::<P, T>(state, body, frame, time);
             }
         }
     }

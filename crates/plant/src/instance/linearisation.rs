@@ -8,7 +8,7 @@
 
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::laws::{Laws as _, Need};
-use dbd_kernel::{F64, Quaternion, State, Vec3};
+use dbd_kernel::{Body, F64, Quaternion, State, Vec3};
 use dbd_scene::SceneModel;
 use nalgebra::{DMatrix, DVector};
 
@@ -72,6 +72,12 @@ impl Probe {
             return Err(InstanceError::Linearisation {
                 what: format!("the signal chain of the law `{law}` has a state outside the bodies"),
                 remedy: "use an input without `lag`, `delay`, `limits`, `rate_limit` and `period`",
+            });
+        }
+        if let Some(row) = instance.plant().model().bodies.iter().position(Body::is_driven) {
+            return Err(InstanceError::Linearisation {
+                what: format!("inputs move the driven body `{}`", of.scene().body_names[row]),
+                remedy: "remove `driven` and hold the body by joints or springs",
             });
         }
         let set = of.set().iter().map(|(path, value)| (path.as_str(), *value));

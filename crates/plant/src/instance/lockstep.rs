@@ -15,12 +15,13 @@ pub struct Lockstep {
 }
 
 /// The widest instruction set of this machine with at most so many lanes for an instance, and their number; `None`
-/// where lanes do not support its method, its laws or a planar scene.
+/// where lanes do not support its method, its laws, driven bodies or a planar scene.
 fn registers(instance: &Instance, most: usize) -> Option<(InstructionSet, usize)> {
     let method = instance.plant().method();
     if !method.in_lanes()
         || instance.scene().planar.is_some()
         || !instance.scene().model.laws.is_empty()
+        || instance.scene().model.bodies.iter().any(dbd_kernel::Body::is_driven)
     {
         return None;
     }

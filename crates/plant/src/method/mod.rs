@@ -224,6 +224,15 @@ impl Method {
         (self.traits().bears)(need)
     }
 
+    /// The part of the method that does not support driven bodies: its scheme or its precision.
+    pub(crate) fn without_drives(&self) -> Option<String> {
+        if !self.traits().drives {
+            return Some(format!("the scheme {}", self.scheme_name()));
+        }
+        let is_fixed = self.precision == PrecisionName::Fixed;
+        is_fixed.then(|| format!("the precision {}", self.precision_name()))
+    }
+
     /// The error of a method that this build does not include.
     pub(crate) fn not_built(&self) -> MethodError {
         let quaternions = self.orientation == OrientationName::Quaternion;
@@ -351,6 +360,7 @@ struct Traits {
     stability_limit: f64,
     most_vibration: Option<Constant>,
     bears: fn(Need) -> bool,
+    drives: bool,
     evaluations: u32,
 }
 
@@ -362,6 +372,7 @@ impl Traits {
             orders: [S::ORDER, S::ORDER_DAMPED],
             most_vibration: S::MAX_VIBRATION,
             bears: S::bears,
+            drives: S::DRIVES,
             stability_limit: scheme.stability_limit(),
             evaluations: scheme.evaluations(),
         }

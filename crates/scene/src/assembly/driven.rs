@@ -26,6 +26,11 @@ pub(crate) enum NoAnchor {
 }
 
 impl Assembly {
+    /// Whether inputs, not forces, move a body.
+    pub(crate) fn is_driven(&self, body: BodyIndex) -> bool {
+        self.model.bodies.get(body.row()).is_some_and(dbd_kernel::Body::is_driven)
+    }
+
     /// The hinge between two bodies about the axis `axis_w` \[world\].
     pub(crate) fn hinge(&self, pair: &Pair, axis_w: Vec3<f64>) -> Hinge {
         Hinge { a: pair.a, b: pair.b, axis: self.vector_in(pair.a, axis_w) }

@@ -60,13 +60,17 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");
     let laws = laws::types::<P>(&model.laws);
+    let driven = match model.bodies.iter().filter(|body| body.is_driven()).count() {
+        0 => String::new(),
+        count => format!(", {count}"),
+    };
     let mut out = String::new();
     let mut line = |text: &dyn Display| {
         // Writing to a string cannot fail.
         let _ = writeln!(out, "{text}");
     };
     line(&format_args!("/// The shape of the scene {}.", quoted(&scene.name)));
-    line(&format_args!("{UNUSED}pub type {ty} = Model<{precision}, {counts}, {laws}>;"));
+    line(&format_args!("{UNUSED}pub type {ty} = Model<{precision}, {counts}, {laws}{driven}>;"));
     line(&format_args!("/// The scene {}.", quoted(&scene.name)));
     line(&format_args!("{UNUSED}pub static {name}: {ty} = Model {{"));
     line(&format_args!("    bodies: {},", list(&model.bodies, body::<P>)));

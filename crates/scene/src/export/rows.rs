@@ -141,6 +141,14 @@ pub(super) fn input<P: SourceGeometry>(input: &Input<P>) -> String {
         InputKind::Gravity { direction } => {
             format!("Gravity {{ direction: {} }}", P::vector(direction))
         }
+        InputKind::Velocity { body, direction } => {
+            let direction = P::vector(direction);
+            format!("Velocity {{ body: {}, direction: {direction} }}", index(*body))
+        }
+        InputKind::AngularVelocity { body, axis } => {
+            let axis = P::moment(axis);
+            format!("AngularVelocity {{ body: {}, axis: {axis} }}", index(*body))
+        }
         InputKind::Signal => "Signal".into(),
         InputKind::Anchor { direction } => {
             format!("Anchor {{ direction: {} }}", P::vector(direction))

@@ -197,12 +197,18 @@ fn moving(end: &End<'_>, at: Vec3<f64>, n: Vec3<f64>) -> f64 {
     else {
         return 0.0;
     };
+    if body.is_driven() {
+        return 0.0;
+    }
     1.0 / body.mass + turning(end, (at - state.position).cross(n))
 }
 
 /// \[1/(kg·m²)\] inverse effective inertia of a body about an axis, world: `a·I⁻¹·a`; 0 for the world.
 fn turning(end: &End<'_>, axis: Vec3<f64>) -> f64 {
     let Some(body) = end.scene.model.bodies.get(end.body.row()) else { return 0.0 };
+    if body.is_driven() {
+        return 0.0;
+    }
     let Vec3 { x, y, z } = end.to_body(axis);
     let inertia = body.inertia;
     x * x / inertia.x + y * y / inertia.y + z * z / inertia.z

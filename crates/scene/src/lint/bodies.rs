@@ -32,6 +32,10 @@ pub(super) fn check(scene: &Scene, facts: &Facts, warnings: &mut Vec<Warning>) {
     mass_ratio(scene, warnings);
     for island in &facts.islands {
         let first = island.bodies[0];
+        let is_driven = |row: &usize| scene.model.bodies[*row].is_driven();
+        if island.bodies.iter().any(is_driven) {
+            continue;
+        }
         let is_flown = island.bodies.iter().any(|row| is_flown(scene, *row));
         let falls = has_gravity(scene) && !is_flown;
         if island.elements == 0 {
@@ -154,7 +158,9 @@ fn plausibility(scene: &Scene, row: usize, farthest: Option<f64>, warnings: &mut
 }
 
 fn mass_ratio(scene: &Scene, warnings: &mut Vec<Warning>) {
-    let masses = || scene.model.bodies.iter().map(|body| body.mass).enumerate();
+    let bodies = || scene.model.bodies.iter().enumerate();
+    let masses =
+        || bodies().filter(|(_, body)| !body.is_driven()).map(|(row, body)| (row, body.mass));
     let least = masses().min_by(|a, b| a.1.total_cmp(&b.1));
     let greatest = masses().max_by(|a, b| a.1.total_cmp(&b.1));
     if let (Some((light, least)), Some((heavy, greatest))) = (least, greatest)

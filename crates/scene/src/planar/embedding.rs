@@ -134,7 +134,8 @@ impl Planar {
                 *moment = flat.inertia.z;
             }
         }
-        Body::from_f64(flat.mass, inertia)
+        let body = Body::from_f64(flat.mass, inertia);
+        if flat.is_driven() { body.driven() } else { body }
     }
 
     fn point_outward(&self, body: BodyIndex, point: Vec3<f64>) -> Vec3<f64> {
@@ -199,6 +200,12 @@ impl Planar {
             InputKind::Actuator { .. } | InputKind::Signal => kind,
             InputKind::Gravity { direction } => {
                 InputKind::Gravity { direction: self.plane.outward(direction) }
+            }
+            InputKind::Velocity { body, direction } => {
+                InputKind::Velocity { body, direction: self.plane.outward(direction) }
+            }
+            InputKind::AngularVelocity { body, axis } => {
+                InputKind::AngularVelocity { body, axis: self.plane.outward(axis) }
             }
             InputKind::Anchor { direction } => {
                 InputKind::Anchor { direction: self.plane.outward(direction) }

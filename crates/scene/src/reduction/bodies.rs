@@ -94,5 +94,6 @@ fn flat(body: &Body<f64>, plane: &Plane, row: usize) -> Body<f64> {
         let axis = plane.of_body_outward(row, axis);
         body.inertia.dot(axis.scale(axis))
     };
-    Body::from_f64(body.mass, Vec3::axes().map(moment))
+    let flat = Body::from_f64(body.mass, Vec3::axes().map(moment));
+    if body.is_driven() { flat.driven() } else { flat }
 }

@@ -118,6 +118,12 @@ fn kind(
         InputKind::Gravity { direction } => {
             InputKind::Gravity { direction: in_plane(plane.inward(direction)) }
         }
+        InputKind::Velocity { body, direction } => {
+            InputKind::Velocity { body, direction: in_plane(plane.inward(direction)) }
+        }
+        InputKind::AngularVelocity { body, axis } => {
+            InputKind::AngularVelocity { body, axis: normal(plane.inward(axis), leaves) }
+        }
         InputKind::Anchor { direction } => {
             InputKind::Anchor { direction: in_plane(plane.inward(direction)) }
         }

@@ -160,7 +160,7 @@ impl<'w, 't> Writer<'w, 't> {
 
     /// Writes a body; numbers that are still valid are kept as written.
     fn body(&mut self, table: &Table<'t>, row: usize) -> Result<(), SceneError> {
-        self.table(table, |key| key == "name")?;
+        self.table(table, |key| ["name", "driven"].contains(&key))?;
         let model: &SceneModel<F64> = &self.scene.model;
         let (Some(body), Some(state)) =
             (model.bodies.get(row), self.scene.assembled_states.get(row))

@@ -41,6 +41,13 @@ pub enum ModesError {
         /// The law.
         law: &'static str,
     },
+    /// A body is driven.
+    #[error("modes do not include driven bodies, as body {row} in scene order")]
+    #[diagnostic(help("remove `driven` and hold the body by joints or springs"))]
+    Driven {
+        /// The body, from 1.
+        row: usize,
+    },
     /// A stiffness beyond the range of numbers.
     #[error("the modes about this pose cannot be computed: stiffness over mass overflows")]
     #[diagnostic(help("use smaller stiffnesses or larger masses and inertias"))]

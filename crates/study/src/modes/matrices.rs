@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::forces::{Wrench, wrenches};
 use dbd_kernel::laws::{Laws as _, Need};
-use dbd_kernel::{BodyIndex, F64, Quaternion, State, Vec3};
+use dbd_kernel::{Body, BodyIndex, F64, Quaternion, State, Vec3};
 use dbd_scene::SceneModel;
 
 use super::error::{ModesError, PROBE, WEIGHTS};
@@ -152,6 +152,9 @@ pub(super) fn stiffness(
 ) -> Result<Vec<Entry>, ModesError> {
     if let Some((law, Need::Passes)) = model.laws.memory() {
         return Err(ModesError::Rotor { law });
+    }
+    if let Some(row) = model.bodies.iter().position(Body::is_driven) {
+        return Err(ModesError::Driven { row: row + 1 });
     }
     scaled(model, state, move_body)
 }

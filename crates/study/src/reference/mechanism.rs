@@ -286,6 +286,9 @@ fn input_kind<T: Terms<F64>>(
             let masses = model.bodies.iter().map(|body| body.mass).collect();
             InputKind::Gravity(masses, Vector3::from(direction.to_f64()))
         }
-        KernelInput::Signal | KernelInput::Anchor { .. } => return None,
+        KernelInput::Velocity { .. }
+        | KernelInput::AngularVelocity { .. }
+        | KernelInput::Signal
+        | KernelInput::Anchor { .. } => return None,
     })
 }

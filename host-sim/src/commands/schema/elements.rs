@@ -187,7 +187,7 @@ pub(super) fn of_input(key: &str, tables: &[TableKeys]) -> Option<Key> {
         "name" => Key(name(), "A name, unique among inputs", ""),
         "type" => Key(
             kinds("input", tables),
-            "The driven quantity, in N, N·m, m/s², m or the unit of a drive's mode",
+            "The driven quantity, in N, N·m, m/s², m/s, rad/s, m or the unit of a drive's mode",
             "",
         ),
         "value" => Key(number(Any), "The value at t = 0, held until the caller sets it", "0"),

@@ -110,6 +110,11 @@ fn of_body(key: &str, tables: &[TableKeys]) -> Option<Key> {
              a tensor [[Ixx, Ixy, Ixz], …]",
             "that of its link or shape",
         ),
+        "driven" => Key(
+            json!({ "type": "boolean" }),
+            "Whether inputs of the types velocity and angular_velocity move it, not forces",
+            "false",
+        ),
         "position" => Key(
             place(),
             "[x, y, z] m or a point: centre of mass, world or in `frame`",

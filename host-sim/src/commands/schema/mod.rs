@@ -73,7 +73,7 @@ fn required_of(table: &str, kind: &str) -> Vec<&'static str> {
         ("joint", "cylindrical") => &["at", "axis", "span", "offset"],
         ("joint", "translational") => &["at", "axis", "span", "gauge", "offset"],
         ("joint", "fixed") => &["at", "axis", "span", "arm"],
-        ("input", "force" | "torque") => &["body", "axis"],
+        ("input", "force" | "torque" | "velocity" | "angular_velocity") => &["body", "axis"],
         ("input", "gravity") => &["axis"],
         ("input", "anchor") => &["target", "axis"],
         ("input", "drive") => &["target", "mode"],

@@ -50,8 +50,14 @@ pub(super) fn forces(scene: &Scene, pivots: &Pivots) -> Vec<ForceMark> {
                 let at = Place { body: row(b), point: point.to_f64() };
                 add(ForceKind::Force, at, row(a), axis);
             }
-            // The spring itself is marked; gravity has no place.
-            InputKind::Actuator { .. } | InputKind::Gravity { .. } => {}
+            InputKind::Velocity { body, direction } => {
+                let at = Place { body: row(body), point: [0.0; 3] };
+                add(ForceKind::Shift, at, None, direction);
+            }
+            // The spring itself is marked; gravity and a rotation have no mark.
+            InputKind::Actuator { .. }
+            | InputKind::Gravity { .. }
+            | InputKind::AngularVelocity { .. } => {}
             InputKind::Signal => {
                 let mut laws = dbd_scene::interactions(scene).into_iter();
                 let Some(drive) = laws.find(|law| law.name() == Some(&info.name)) else { continue };
