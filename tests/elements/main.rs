@@ -8,6 +8,7 @@ mod contacts;
 mod costs;
 mod couplings;
 mod creep;
+mod driven;
 mod drives;
 mod examples;
 mod gravity;

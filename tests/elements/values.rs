@@ -8,7 +8,7 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::drives::{ROTOR, period, wheel};
 use crate::{
-    axes, contacts, couplings, gravity, instance, loaded, mounts, shaft, soft, value, winches,
+    axes, contacts, couplings, driven, gravity, instance, loaded, mounts, shaft, soft, value, winches,
 };
 
 const G: f64 = 9.81;
@@ -358,6 +358,7 @@ fn elements_reach_their_values() {
         axes::cases(),
         loaded::cases(),
         vec![gravity::case()],
+        driven::cases(),
     ];
     for case in cases().into_iter().chain(further.into_iter().flatten()) {
         let steps = [case.step, case.step / 2.0, case.step / 4.0];
