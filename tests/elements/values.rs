@@ -8,7 +8,8 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::drives::{ROTOR, period, wheel};
 use crate::{
-    axes, contacts, couplings, driven, gravity, instance, loaded, mounts, shaft, soft, value, winches,
+    axes, contacts, couplings, driven, gravity, instance, loaded, mounts, shaft, soft, value,
+    winches,
 };
 
 const G: f64 = 9.81;
