@@ -105,6 +105,38 @@ impl<S: Space> Diagonal<S> {
             angular: torque.scale(self.inertia * halves),
         }
     }
+
+    /// [`Self::increment`] with the change of velocity by gravity.
+    #[inline(always)]
+    pub(crate) fn kick(
+        &self,
+        (force, torque): (S::Vector, S::Moment),
+        scale: S::Real,
+        fall: Fall<S::Vector>,
+    ) -> Increment<S> {
+        let mut kick = self.increment(force, torque, scale);
+        if let Some(change) = fall.of(self) {
+            kick.linear = kick.linear + change;
+        }
+        kick
+    }
+}
+
+/// The change of velocity by gravity in part of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fall<V> {
+    /// \[m/s\], `None` where weights are part of the wrenches.
+    pub(crate) change: Option<V>,
+    /// Whether the model may have driven bodies.
+    pub(crate) driven: bool,
+}
+
+impl<V> Fall<V> {
+    /// \[m/s\] that of a body: none of a driven one, whose diagonal is 0.
+    #[inline(always)]
+    pub(crate) fn of<S: Space<Vector = V>>(self, diagonal: &Diagonal<S>) -> Option<V> {
+        if self.driven && diagonal.mass == S::Real::ZERO { None } else { self.change }
+    }
 }
 
 /// The state of one body.

@@ -5,7 +5,6 @@
 
 use core::ops::Deref;
 
-use crate::body::Body;
 use crate::elements::input::{Input, InputKind, Knot};
 use crate::elements::load::Load;
 use crate::elements::point_bushing::PointBushing;
@@ -149,10 +148,13 @@ fn visit_model<P: Geometry, T: Terms<P>>(
     for load in *loads {
         integer(u64::from(load.body.0) << 1 | load.frame as u64);
     }
-    // All other constants of a body are derived from these two.
-    for Body { mass, inertia, .. } in *bodies {
-        visitor.word(mass.word());
-        inertia.visit(visitor);
+    // All other constants of a body are derived from these two, and zero where it is driven.
+    for body in *bodies {
+        visitor.word(body.mass.word());
+        body.inertia.visit(visitor);
+        if T::DRIVEN && body.is_driven() {
+            visitor.word(Word::U64(1));
+        }
     }
     gravity.iter().for_each(|field| field.visit(visitor));
     points.iter().for_each(|point| point.visit(visitor));

@@ -21,7 +21,7 @@ pub enum PlantError {
     /// The scheme does not support the memory of the law of this name: it steps back in time, or evaluates more than
     /// once per step.
     Memory(&'static str),
-    /// The scheme or the precision does not support driven bodies, as this one.
+    /// The scheme does not support driven bodies, as this one.
     Driven(BodyIndex),
 }
 
@@ -37,11 +37,7 @@ impl core::fmt::Display for PlantError {
                 write!(f, "the scheme does not support the memory of law `{law}`")
             }
             PlantError::Driven(body) => {
-                write!(
-                    f,
-                    "the scheme or the precision does not support driven bodies, as body {}",
-                    body.0
-                )
+                write!(f, "the scheme does not support driven bodies, as body {}", body.0)
             }
             PlantError::Stiff(most) => {
                 write!(

@@ -176,13 +176,14 @@ pub fn check_laws(scene: &Scene, method: &Method) -> Result<(), PlantError> {
     }
 }
 
-/// Checks that a method moves a scene's driven bodies.
+/// Checks that a method's scheme moves driven bodies.
 fn check_driven(scene: &Scene, method: &Method) -> Result<(), PlantError> {
     let driven = scene.model.bodies.iter().position(dbd_kernel::Body::is_driven);
-    match (driven, method.without_drives()) {
-        (Some(row), Some(method)) => {
-            Err(PlantError::Driven { body: scene.body_names[row].clone(), method })
-        }
+    match driven {
+        Some(row) if !method.drives() => Err(PlantError::Driven {
+            body: scene.body_names[row].clone(),
+            scheme: method.scheme_name(),
+        }),
         _ => Ok(()),
     }
 }
@@ -289,10 +290,9 @@ impl New<'_> {
             kernel::PlantError::Memory(law) => {
                 PlantError::Memory { law, scheme: self.method.scheme_name() }
             }
-            kernel::PlantError::Driven(body) => PlantError::Driven {
-                body: body.0.to_string(),
-                method: self.method.without_drives().unwrap_or_default(),
-            },
+            kernel::PlantError::Driven(body) => {
+                PlantError::Driven { body: body.0.to_string(), scheme: self.method.scheme_name() }
+            }
             kernel::PlantError::Stiff(most) => {
                 PlantError::Stiff { most, precision: self.method.precision_name() }
             }

@@ -58,14 +58,14 @@ pub enum PlantError {
         /// The scheme's name.
         scheme: &'static str,
     },
-    /// The scheme or the precision cannot move a driven body.
-    #[error("{method} cannot move the driven body `{body}`")]
-    #[diagnostic(help("use --scheme leapfrog in --precision f64 or f32, or remove `driven`"))]
+    /// The scheme cannot move a driven body.
+    #[error("the scheme {scheme} cannot move the driven body `{body}`")]
+    #[diagnostic(help("use --scheme leapfrog, or remove `driven`"))]
     Driven {
         /// The body's name.
         body: String,
-        /// The scheme or the precision.
-        method: String,
+        /// The scheme's name.
+        scheme: &'static str,
     },
     /// The precision exists for comparison alone and has no laws.
     #[error("{precision} does not support interactions: it is for comparison only")]

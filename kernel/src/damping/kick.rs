@@ -2,7 +2,7 @@
 //!
 //! `(wrenches, diagonals) => change of velocity per body`.
 
-use crate::body::{Diagonal, Increment};
+use crate::body::{Diagonal, Fall, Increment};
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::real::Real;
@@ -36,8 +36,7 @@ impl<P: Geometry> Kick<P> for NoKick {
 pub(crate) struct HalfKick<'s, S: Space> {
     pub(crate) wrenches: &'s [Wrench<S>],
     pub(crate) diagonals: &'s [Diagonal<S>],
-    /// \[m/s\] the change by gravity, `None` where weights are part of the wrenches.
-    pub(crate) apply_gravity: Option<S::Vector>,
+    pub(crate) fall: Fall<S::Vector>,
 }
 
 impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
@@ -46,11 +45,7 @@ impl<P: Geometry> Kick<P> for HalfKick<'_, P::Space> {
     #[inline(always)]
     fn of(&self, row: usize) -> Option<Increment<P::Space>> {
         let (wrench, diagonal) = (self.wrenches.get(row)?, self.diagonals.get(row)?);
-        let mut kick = diagonal.increment(wrench.force, wrench.torque, P::Real::HALF);
-        if let Some(apply_gravity) = self.apply_gravity {
-            kick.linear = kick.linear + apply_gravity;
-        }
-        Some(kick)
+        Some(diagonal.kick((wrench.force, wrench.torque), P::Real::HALF, self.fall))
     }
 }
 

@@ -156,13 +156,12 @@ where
         }
     }
 
-    /// Refuses driven bodies where a scheme or the precision does not support them.
+    /// Refuses driven bodies where a scheme does not support them.
     ///
     /// # Errors
     /// [`PlantError::Driven`] with the first of them.
     pub(crate) fn check_driven(&self, drives: bool) -> Result<(), PlantError> {
-        let held = drives && !PrecisionOf::<H>::HAS_GRAVITY_STEP;
-        if !<H::Target as ModelOwner>::Terms::DRIVEN || held {
+        if !<H::Target as ModelOwner>::Terms::DRIVEN || drives {
             return Ok(());
         }
         let driven = self.model.view().bodies.iter().position(Body::is_driven);

@@ -2,7 +2,7 @@
 //!
 //! `(state, wrench, diagonal) => velocities; (state, time) => pose`, and the frame of the pose.
 
-use crate::body::{Body, BodyState, Diagonal};
+use crate::body::{Body, BodyState, Diagonal, Fall};
 use crate::forces::Wrench;
 use crate::geometry::Geometry;
 use crate::model::Terms;
@@ -15,11 +15,11 @@ pub(crate) fn kick_body<P: Geometry>(
     state: &mut BodyState<P>,
     wrench: &Wrench<P::Space>,
     diagonal: &Diagonal<P::Space>,
-    (scale, apply_gravity): (P::Real, Option<P::Vector>),
+    (scale, fall): (P::Real, Fall<P::Vector>),
 ) {
     let increment = diagonal.increment(wrench.force, wrench.torque, scale);
-    if let Some(apply_gravity) = apply_gravity {
-        P::apply_gravity(&mut state.velocity, apply_gravity);
+    if let Some(change) = fall.of(diagonal) {
+        P::apply_gravity(&mut state.velocity, change);
     }
     P::accelerate(&mut state.velocity, increment.linear);
     P::spin_up(&mut state.angular_velocity, increment.angular);
@@ -48,7 +48,7 @@ pub(crate) fn drift_to_frame<P: Geometry, T: Terms<P>>(
     frame: &mut P::Frame,
     time: P::Real,
 ) {
-    if P::RESTS {
+    if P::RESTS && !(T::DRIVEN && body.is_driven()) {
         let BodyState { position, orientation, velocity, angular_velocity } = state;
         P::advance_position(position, velocity, time);
         rotation::turn_freely::<P>(body, orientation, angular_velocity, time);
@@ -66,10 +66,11 @@ pub(super) fn move_apart<P: Geometry, T: Terms<P>>(
     body: &Body<P::Space>,
     frame: &mut P::Frame,
     (wrench, diagonal): (&Wrench<P::Space>, &Diagonal<P::Space>),
-    apply_gravity: P::Vector,
+    change: P::Vector,
     time: P::Real,
 ) {
-    let apply_gravity = if P::HAS_GRAVITY_STEP && T::GRAVITY { Some(apply_gravity) } else { None };
-    kick_body(state, wrench, diagonal, (P::Real::HALF, apply_gravity));
+    let change = if P::HAS_GRAVITY_STEP && T::GRAVITY { Some(change) } else { None };
+    let fall = Fall { change, driven: T::DRIVEN };
+    kick_body(state, wrench, diagonal, (P::Real::HALF, fall));
     drift_to_frame::<P, T>(state, body, frame, time);
 }

@@ -39,7 +39,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         if !(P::PassSum::APART && self.has_dampers()) {
             self.kick(P::Real::HALF);
         }
-        let apply_gravity = self.apply_gravity(P::Real::HALF);
+        let fall = self.fall(P::Real::HALF);
         let (wrenches, diagonals) = (&*self.wrenches, self.diagonals);
         if self.has_dampers() {
             let sweep = Sweep {
@@ -47,7 +47,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
                 places: Places { frames: self.frames, signals: self.signals },
                 turns: self.turns,
                 shares: self.shares,
-                kick: HalfKick { wrenches, diagonals, apply_gravity },
+                kick: HalfKick { wrenches, diagonals, fall },
             };
             damping::sweep::<P, T, _, REVERSE>(
                 &self.model,
@@ -92,14 +92,11 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// and replaces them.
     #[inline(always)]
     fn keep_kick(&mut self, fresh: bool) {
-        let apply_gravity = self.apply_gravity(P::Real::HALF);
+        let fall = self.fall(P::Real::HALF);
         let rows = self.bodies.iter_mut().zip(self.wrenches.iter_mut());
         if fresh {
             for ((state, wrench), diagonal) in rows.zip(self.diagonals) {
-                let mut kick = diagonal.increment(wrench.force, wrench.torque, P::Real::HALF);
-                if let Some(apply_gravity) = apply_gravity {
-                    kick.linear = kick.linear + apply_gravity;
-                }
+                let kick = diagonal.kick((wrench.force, wrench.torque), P::Real::HALF, fall);
                 *wrench = Wrench::new(kick.linear, kick.angular);
                 if !P::PassSum::APART {
                     P::accelerate(&mut state.velocity, kick.linear);

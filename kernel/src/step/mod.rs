@@ -16,7 +16,7 @@ pub(crate) use driven::drive;
 use core::ops::{Deref, DerefMut};
 
 pub use crate::body::Diagonal;
-use crate::body::{BodyState, Increment};
+use crate::body::{BodyState, Fall, Increment};
 use crate::damping::{DampingMode, Share};
 use crate::elements::input::Input;
 use crate::forces::{self, At, Dampers, Evaluation, Instant, Memories, Unpushed, Wrench};
@@ -354,10 +354,10 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
 
     #[inline(always)]
     fn kick_here(&mut self, scale: P::Real) {
-        let apply_gravity = self.apply_gravity(scale);
+        let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.wrenches.iter()).zip(self.diagonals);
         for ((state, wrench), diagonal) in rows {
-            kick_body(state, wrench, diagonal, (scale, apply_gravity));
+            kick_body(state, wrench, diagonal, (scale, fall));
         }
     }
 
@@ -370,8 +370,9 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
 
     /// \[m/s\] the increment by gravity in `scale` steps, likewise.
     #[inline(always)]
-    pub(crate) fn apply_gravity(&self, scale: P::Real) -> Option<P::Vector> {
-        self.field().map(|gravity| gravity * (scale * self.h))
+    pub(crate) fn fall(&self, scale: P::Real) -> Fall<P::Vector> {
+        let change = self.field().map(|gravity| gravity * (scale * self.h));
+        Fall { change, driven: T::DRIVEN }
     }
 
     /// Moves every body freely for `time` \[s\]: in translation, and as a free rotor (second order).
@@ -389,11 +390,11 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
         self.cache.fresh = false;
         self.cache.ready = false;
-        let apply_gravity = self.apply_gravity(scale);
+        let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies);
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
         for ((state, body), (wrench, diagonal)) in rows {
-            kick_body(state, wrench, diagonal, (scale, apply_gravity));
+            kick_body(state, wrench, diagonal, (scale, fall));
             drift_body::<P, T>(state, body, time);
         }
     }
@@ -421,15 +422,15 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         self.cache.fresh = false;
         self.cache.ready = false;
         self.cache.moved = true;
-        let apply_gravity = self.apply_gravity(scale);
+        let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
         for (((state, body), frame), (wrench, diagonal)) in rows {
             if P::RESTS && scale == P::Real::HALF {
-                let apply_gravity = apply_gravity.unwrap_or(P::Vector::ZERO);
-                move_apart::<P, T>(state, body, frame, (wrench, diagonal), apply_gravity, time);
+                let change = fall.change.unwrap_or(P::Vector::ZERO);
+                move_apart::<P, T>(state, body, frame, (wrench, diagonal), change, time);
             } else {
-                kick_body(state, wrench, diagonal, (scale, apply_gravity));
+                kick_body(state, wrench, diagonal, (scale, fall));
                 drift_to_frame::<P, T>(state, body, frame, time);
             }
         }
@@ -478,7 +479,7 @@ impl<P: Geometry, T: Terms<P>, S> Stepper<'_, '_, P, T, S> {
         &mut self,
         mut visit: impl FnMut(&mut S, &mut BodyState<P>, Increment<P::Space>, P::Real),
     ) {
-        let apply_gravity = self.workspace.apply_gravity(P::Real::ONE);
+        let fall = self.workspace.fall(P::Real::ONE);
         let Workspace { bodies, model, wrenches, diagonals, cache, h, .. } = &mut self.workspace;
         cache.fresh = false;
         let rows = bodies
@@ -489,11 +490,8 @@ impl<P: Geometry, T: Terms<P>, S> Stepper<'_, '_, P, T, S> {
         for (((state, memory), body), (wrench, diagonal)) in rows {
             let w = P::spin(&state.angular_velocity);
             let torque = wrench.torque - w.commutator(body.inertia.scale(w));
-            let mut increment = diagonal.increment(wrench.force, torque, P::Real::ONE);
-            if let Some(apply_gravity) = apply_gravity {
-                increment.linear = increment.linear + apply_gravity;
-            }
-            visit(memory, state, increment, *h);
+            let kick = diagonal.kick((wrench.force, torque), P::Real::ONE, fall);
+            visit(memory, state, kick, *h);
         }
     }
 }

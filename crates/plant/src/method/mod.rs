@@ -224,13 +224,9 @@ impl Method {
         (self.traits().bears)(need)
     }
 
-    /// The part of the method that does not support driven bodies: its scheme or its precision.
-    pub(crate) fn without_drives(&self) -> Option<String> {
-        if !self.traits().drives {
-            return Some(format!("the scheme {}", self.scheme_name()));
-        }
-        let is_fixed = self.precision == PrecisionName::Fixed;
-        is_fixed.then(|| format!("the precision {}", self.precision_name()))
+    /// Whether its scheme moves driven bodies.
+    pub(crate) fn drives(&self) -> bool {
+        self.traits().drives
     }
 
     /// The error of a method that this build does not include.
