@@ -57,11 +57,11 @@ impl<S: Space> Body<S> {
         Self { inverse_mass: S::Real::ZERO, inverse_inertia: S::Moment::ZERO, ..self }
     }
 
-    /// Whether it is [driven](Self::driven). Lanes have no driven bodies.
+    /// Whether it is [driven](Self::driven), unlike a body whose mass overflows. Lanes have no driven bodies.
     #[inline(always)]
     #[must_use]
     pub fn is_driven(&self) -> bool {
-        S::Real::ONE_LANE && self.inverse_mass == S::Real::ZERO
+        S::Real::ONE_LANE && self.inverse_mass == S::Real::ZERO && self.mass.is_finite()
     }
 }
 

@@ -82,7 +82,7 @@ pub(crate) fn sample<P: Geometry>(
 ) -> bool {
     let mut changed = false;
     for (source, step) in sources.iter().zip(steps) {
-        let now = self::at(source, (knots, knot_steps), step, at);
+        let now = self::at(source, knots, knot_steps, step, at);
         changed |= put(source, now, signals);
     }
     changed
@@ -92,7 +92,8 @@ pub(crate) fn sample<P: Geometry>(
 #[inline(always)]
 pub(crate) fn at<P: Geometry>(
     source: &Source<P>,
-    (knots, steps): (&[Knot<P::Real>], &[KnotStep<P::Real>]),
+    knots: &[Knot<P::Real>],
+    steps: &[KnotStep<P::Real>],
     step: &SourceStep,
     at: StageTime<P::Real>,
 ) -> Option<Signal<P::Real>> {

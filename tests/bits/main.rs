@@ -2,12 +2,16 @@
 //!
 //! The table `hashes.csv` is part of the interface, `orientations.csv` holds those of Euler angles,
 //! `planar.csv` those of scenes in their plane, `joint-wise.csv` those of damping joint by joint,
-//! `fixed.csv` those of fixed point, `generalized-alpha.csv` those of the scheme with a matrix.
+//! `fixed.csv` those of fixed point, `laws.csv` those of scenes with laws, `generalized-alpha.csv` those of the scheme with a matrix.
 //! `DBD_BLESS=golden cargo test -p dbd-bits --all-features` writes the present hashes; a changed one needs its
 //! reason in the commit.
 
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
 use dbd_plant::{DampingName, Method, Named as _, PrecisionName, SchemeName, plant};
-use dbd_scene::Scene;
+use dbd_scene::laws::known_laws;
+use dbd_scene::{Scene, interactions};
 use dbd_tests::page::golden;
 use dbd_tests::{scene, scene_names};
 
@@ -22,6 +26,24 @@ const SOLVED: f64 = 1e-3;
 
 /// Scenes of all schemes: planar, with torsion springs, with points on lines, in space, damped.
 const ALL_SCHEMES: [&str; 5] = ["four-bar", "3rrr", "crank-slider", "3ruu", "double-wishbone"];
+
+/// Scenes of the corpus that have every law together, those of the firmware's program `hash`.
+const LAWFUL: [&str; 11] = [
+    "bushing",
+    "chains",
+    "contact",
+    "couplings",
+    "driven",
+    "drives",
+    "interactions",
+    "limits",
+    "mounts",
+    "wheel",
+    "winch",
+];
+/// Examples of the documentation with laws.
+const EXAMPLES: [&str; 6] =
+    ["balance-robot", "crane", "gate-opener", "grasp", "quarter-car", "wiper"];
 
 const F64: PrecisionName = PrecisionName::F64;
 const F32: PrecisionName = PrecisionName::F32;
@@ -176,6 +198,39 @@ fn states_in_the_plane_have_their_golden_hashes() {
         rows(&mut present, &scene, &solved, &[F64, F32], STEPS);
     }
     compare("planar.csv", &present);
+}
+
+/// Of scenes that have every law together, and of the examples with laws, in the plane, too, where they move there.
+#[test]
+fn states_with_laws_have_their_golden_hashes() {
+    let folder = |path: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
+    let load = |file: PathBuf| {
+        let mut scene = Scene::load(&file).unwrap();
+        scene.name = file.file_stem().unwrap().to_string_lossy().into_owned();
+        scene.step = Some(scene.step.unwrap_or(1e-4));
+        scene
+    };
+    let (mut present, ways) = (format!("{HEADER}\n"), [way(SchemeName::Leapfrog)]);
+    let mut unseen: BTreeSet<_> = known_laws().into_iter().map(|law| law.name).collect();
+    for name in LAWFUL {
+        let scene = load(folder("tests/fuzz/corpus/scene").join(name).with_extension("toml"));
+        for law in interactions(&scene) {
+            unseen.remove(law.law);
+        }
+        rows(&mut present, &scene, &ways, &[F64, F32, FIXED], STEPS);
+    }
+    assert!(unseen.is_empty(), "laws without a golden hash: {unseen:?}");
+    for name in EXAMPLES {
+        let file = folder("docs/examples").join(name).join(name).with_extension("toml");
+        let scene = load(file);
+        rows(&mut present, &scene, &ways, &[F64, F32, FIXED], STEPS);
+        if let Ok(mut scene) = scene.with("planar=true") {
+            scene.name += "-planar";
+            scene.step = Some(scene.step.unwrap_or(1e-4));
+            rows(&mut present, &scene, &ways, &[F64, F32], STEPS);
+        }
+    }
+    compare("laws.csv", &present);
 }
 
 #[cfg(feature = "comparison")]

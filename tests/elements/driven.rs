@@ -4,6 +4,12 @@
 use dbd_kernel::power::power;
 use dbd_plant::instance::{Blueprint, Instance, Settings};
 
+use dbd_scene::Scene;
+use dbd_study::reference::fine::states;
+use dbd_study::reference::mechanism::Mechanism;
+use dbd_study::reference::reference_solution::Integrator;
+use dbd_study::reference::spectrum::eigenfrequencies;
+
 use crate::values::Case;
 use crate::{instance, value};
 
@@ -345,6 +351,21 @@ fn joints_may_have_driven_bodies_at_both_ends() {
         let held = value(&run, "c.y").abs() < 0.02;
         assert!(held, "{scheme} {damping:?} {precision}: {}", value(&run, "c.y"));
     }
+}
+
+/// Studies take it as driven: the reference solution of `trade` and `advise`, and the eigenfrequencies of a pose.
+#[test]
+fn references_and_eigenfrequencies_take_it_as_driven() {
+    let scene = Scene::parse(&shaken(0.0, "", SINE), "driven.toml").unwrap();
+    let times: Vec<f64> = (0..=7).map(|row| 0.1 * f64::from(row)).collect();
+    let states = states(Integrator::Dop853, &scene, false, &times).unwrap();
+    for (time, state) in times.iter().zip(&states) {
+        let found = state.bodies[1].position.x;
+        assert!((found - answer(*time)).abs() < 1e-6, "{time}: {found} {}", answer(*time));
+    }
+    let (mechanism, start) = Mechanism::of(&scene);
+    let highest = eigenfrequencies(&mechanism, &start, 0.0).pop().unwrap();
+    assert!((highest - 20.0).abs() < 1e-5, "{highest}");
 }
 
 /// `driven` alone changes the hash of a model: snapshots of the one do not fit the other.

@@ -13,6 +13,7 @@
 //! `advise`.
 
 use dbd_plant::digits::significant;
+use dbd_plant::plant::check_laws;
 use dbd_plant::{Frequencies, Method, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
 use miette::Diagnostic;
@@ -196,6 +197,11 @@ pub fn ideal(
     let refuse = |what: String| IdealError::NotReached { asked: tolerance, duration, what };
     if tolerance < LEAST {
         return Err(refuse("rounding errors are as large".into()));
+    }
+    for scheme in [SchemeName::GeneralizedAlpha3, SchemeName::GeneralizedAlpha] {
+        let method = Method::new(scheme, None, PrecisionName::F64);
+        let method = method.map_err(|error| refuse(error.to_string()))?;
+        check_laws(scene, &method).map_err(|error| refuse(error.to_string()))?;
     }
     let frequencies = Frequencies::of(scene);
     let longest = LONGEST.min(frequencies.longest_turn()).min(frequencies.period / 40.0);

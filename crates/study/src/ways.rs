@@ -10,6 +10,7 @@ use dbd_scene::Scene;
 
 use crate::grid::Grid;
 use crate::point::{Machine, Stepper, is_paper};
+use crate::reference::fine::is_implemented;
 
 /// A method: of the kernel, or a reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,8 +157,7 @@ pub fn ways(scene: &Scene, in_space: bool) -> Vec<Way> {
             }
         }
     }
-    // The references know no laws of interactions.
-    if !dbd_scene::interactions(scene).is_empty() {
+    if !is_implemented(scene) {
         return ways;
     }
     ways.extend([Way::NaiveSemiImplicitEuler, Way::NaiveLeapfrog, Way::LinearlyImplicitEuler]);

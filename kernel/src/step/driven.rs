@@ -44,7 +44,7 @@ pub(crate) fn drive_midway<P: Geometry, T: Terms<P>>(
         if T::SOURCES {
             for (source, step) in model.sources.iter().zip(sources) {
                 if source.input.0 as usize == row
-                    && let Some(now) = sources::at(source, (model.knots, knots), step, at)
+                    && let Some(now) = sources::at(source, model.knots, knots, step, at)
                 {
                     signal = now;
                 }

@@ -70,6 +70,12 @@ impl Coordinates {
         reader.springs();
         reader.laws();
         reader.inputs();
+        for (row, body) in scene.model.bodies.iter().enumerate() {
+            if body.is_driven() {
+                let what = format!("driven body `{}`", scene.body_name(row));
+                reader.lack(Lack::Input, scene.line_of_body(row), what);
+            }
+        }
         for load in &scene.model.loads {
             let body = scene.body_name(load.body.row());
             reader.lack(Lack::Load, None, format!("load on `{body}`"));

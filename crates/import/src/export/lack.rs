@@ -15,7 +15,7 @@ pub enum Lack {
     Contact,
     /// Couplings of other than two joint coordinates, with backlash or one-sided.
     Coupling,
-    /// Inputs other than forces and torques at joint coordinates, and signal chains.
+    /// Inputs other than forces and torques at joint coordinates, signal chains, and driven bodies.
     Input,
     /// Inertia of rotors, and their gears and windings.
     Rotor,
@@ -45,9 +45,10 @@ impl Lack {
             Self::Coupling => {
                 ["coupling", "couplings other than of two joint coordinates without play"]
             }
-            Self::Input => {
-                ["input", "inputs other than forces and torques at joints, signal chains"]
-            }
+            Self::Input => [
+                "input",
+                "inputs other than forces and torques at joints, signal chains, driven bodies",
+            ],
             Self::Rotor => ["rotor", "inertia of rotors, with their gears and windings"],
             Self::Load => ["load", "constant forces and torques"],
         }

@@ -10,19 +10,29 @@ use super::number::{SourceGeometry, SourceNumber as _};
 use super::rows::index;
 use crate::laws::LawList;
 
+/// The most tables of a tuple that is a list of laws, see [`dbd_kernel::laws::Laws`].
+const MOST_TABLES: usize = 8;
+
+/// A list of laws: a tuple of tables, and the rest in a tuple in its last place where there are more.
+fn tuple(tables: &[String]) -> String {
+    match tables.split_at_checked(MOST_TABLES - 1) {
+        Some((first, rest)) if rest.len() > 1 => format!("({} {})", first.join(" "), tuple(rest)),
+        _ => format!("({})", tables.join(" ")),
+    }
+}
+
 /// The type of the list: `([dbd_kernel::laws::EndStop<F32>; 1],)`.
 pub(super) fn types<P: SourceGeometry>(laws: &LawList<P>) -> String {
     let table = |source: &std::sync::Arc<dyn crate::laws::SourceRows>| {
         format!("[{}<{}>; {}],", source.path(), P::name(), source.bodies().len())
     };
-    format!("({})", laws.sources().iter().map(table).collect::<Vec<_>>().join(" "))
+    tuple(&laws.sources().iter().map(table).collect::<Vec<_>>())
 }
 
 /// The list.
 pub(super) fn rows<P: SourceGeometry>(laws: &LawList<P>) -> String {
-    let mut text = String::from("(");
-    for source in laws.sources() {
-        text += "[\n";
+    let table = |source: &std::sync::Arc<dyn crate::laws::SourceRows>| {
+        let mut text = String::from("[\n");
         for (row, bodies) in source.bodies().into_iter().enumerate() {
             let [a, b] = bodies.map(|body: BodyIndex| index(body));
             let mut fields = Fields::<P> { text: String::new(), precision: Default::default() };
@@ -30,9 +40,9 @@ pub(super) fn rows<P: SourceGeometry>(laws: &LawList<P>) -> String {
             text +=
                 &format!("        {} {{ bodies: [{a}, {b}], {} }},\n", source.path(), fields.text);
         }
-        text += "    ],";
-    }
-    text + ")"
+        text + "    ],"
+    };
+    tuple(&laws.sources().iter().map(table).collect::<Vec<_>>())
 }
 
 struct Fields<P> {

@@ -1,7 +1,7 @@
-//! The reference solution of a scene with interactions: the kernel at fine steps.
+//! The reference solution of a scene with interactions or driven bodies: the kernel at fine steps.
 //!
 //! `(scene, integrator, times) => states`. The references do not implement laws of interactions, which may be user-defined
-//! and have internal states. So these scenes are compared with leapfrog in double precision with short steps; twice the
+//! and have internal states, and do not move driven bodies. So these scenes are compared with leapfrog in double precision with short steps; twice the
 //! step is the second integrator, and the distance between the two is the uncertainty: of order 2 for smooth forces, of
 //! order 1 if a stop is hit within a step.
 
@@ -16,6 +16,12 @@ use crate::reference::state::State;
 /// Steps of the reference solution per default step of leapfrog.
 const FINER: f64 = 32.0;
 
+/// Whether the references implement everything that a scene has.
+#[must_use]
+pub fn is_implemented(scene: &Scene) -> bool {
+    scene.model.laws.is_empty() && !scene.model.bodies.iter().any(dbd_kernel::Body::is_driven)
+}
+
 /// The states of a scene at ascending times \[s\] from t = 0, equally spaced; `perturbed` from a state nearby, see
 /// [`perturbation`].
 ///
@@ -27,7 +33,7 @@ pub fn states(
     perturbed: bool,
     times: &[f64],
 ) -> Result<Vec<State>, NoReferenceSolution> {
-    if !dbd_scene::interactions(scene).is_empty() {
+    if !is_implemented(scene) {
         return of_kernel(integrator, scene, perturbed, times);
     }
     let (mechanism, start) = Mechanism::of(scene);

@@ -15,6 +15,8 @@ pub struct Body {
     pub mass: f64,
     /// \[kg·m²\] body axes.
     pub inertia: Vector3<f64>,
+    /// Whether no force moves it.
+    pub driven: bool,
 }
 
 /// Force and torque on a body, world axes.

@@ -102,7 +102,11 @@ impl Mechanism {
             bodies: model
                 .bodies
                 .iter()
-                .map(|b| Body { mass: b.mass, inertia: Vector3::from(b.inertia.to_f64()) })
+                .map(|b| Body {
+                    mass: b.mass,
+                    inertia: Vector3::from(b.inertia.to_f64()),
+                    driven: b.is_driven(),
+                })
                 .collect(),
             gravity: model.gravity.iter().map(|g| Vector3::from(g.to_f64())).sum(),
             elements,
@@ -149,6 +153,9 @@ impl Mechanism {
         }
         let rows = self.bodies.iter().zip(&wrenches).enumerate();
         rows.map(|(row, (body, wrench))| {
+            if body.driven {
+                return Acceleration::default();
+            }
             let rate = at.rate(row);
             let spin = body.inertia.component_mul(&rate);
             let torque = at.to_body(row, wrench.torque) - rate.cross(&spin);

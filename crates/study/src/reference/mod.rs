@@ -1,5 +1,5 @@
 //! References in plain std Rust: an independent implementation of the same equations, without force code of the kernel.
-//! For scenes with interactions, whose laws they lack, the kernel at fine steps is the reference solution.
+//! For scenes with interactions or driven bodies, which they lack, the kernel at fine steps is the reference solution.
 //!
 //! `model's data => mechanism => accelerations`, and from them the reference solutions of runs. The modules in
 //! dependency order:

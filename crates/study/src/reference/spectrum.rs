@@ -16,7 +16,7 @@ use crate::reference::state::State;
 const PROBE: f64 = 1e-6;
 
 /// The angular frequencies \[rad/s\] of the pose of a state at a time \[s\], ascending, 6 per body.
-/// Rigid motions have 0; an unstable pose has negative ones, whose magnitudes are the growth rates.
+/// Rigid motions and driven bodies have 0; an unstable pose has negative ones, whose magnitudes are the growth rates.
 #[must_use]
 pub fn eigenfrequencies(mechanism: &Mechanism, state: &State, time: f64) -> Vec<f64> {
     let matrix = scaled_stiffness(mechanism, state, time);
@@ -42,7 +42,7 @@ pub fn scaled_stiffness(mechanism: &Mechanism, state: &State, time: f64) -> DMat
     let roots: Vec<f64> = roots.collect();
     let size = roots.len();
     let mut matrix = DMatrix::zeros(size, size);
-    for column in 0..size {
+    for column in (0..size).filter(|column| !mechanism.bodies[column / 6].driven) {
         let [plus, minus] = [PROBE, -PROBE].map(|by| {
             let moved = moved(&rest, column, by);
             let at = mechanism.at(&moved, Clock::at(time));
