@@ -74,7 +74,6 @@ const SOLVED: &[(&str, &str, &[&str], &[&str])] = &[
 ];
 /// Scenes of `tests/fuzz/corpus/scene` that have every law together; each ships in every precision.
 const LAWFUL: &[&str] = &[
-    "bushing",
     "chains",
     "contact",
     "couplings",
@@ -82,6 +81,7 @@ const LAWFUL: &[&str] = &[
     "drives",
     "interactions",
     "limits",
+    "mount",
     "mounts",
     "wheel",
     "winch",

@@ -29,7 +29,6 @@ const ALL_SCHEMES: [&str; 5] = ["four-bar", "3rrr", "crank-slider", "3ruu", "dou
 
 /// Scenes of the corpus that have every law together, those of the firmware's program `hash`.
 const LAWFUL: [&str; 11] = [
-    "bushing",
     "chains",
     "contact",
     "couplings",
@@ -37,6 +36,7 @@ const LAWFUL: [&str; 11] = [
     "drives",
     "interactions",
     "limits",
+    "mount",
     "mounts",
     "wheel",
     "winch",

@@ -4,7 +4,7 @@
 use dbd_kernel::power::power;
 use dbd_plant::instance::{Blueprint, Instance, Settings};
 
-use dbd_scene::Scene;
+use dbd_scene::{Scene, facts};
 use dbd_study::reference::fine::states;
 use dbd_study::reference::mechanism::Mechanism;
 use dbd_study::reference::reference_solution::Integrator;
@@ -366,6 +366,19 @@ fn references_and_eigenfrequencies_take_it_as_driven() {
     let (mechanism, start) = Mechanism::of(&scene);
     let highest = eigenfrequencies(&mechanism, &start, 0.0).pop().unwrap();
     assert!((highest - 20.0).abs() < 1e-5, "{highest}");
+}
+
+/// It counts as the ground where freedoms are counted; a joint between it and the ground holds nothing.
+#[test]
+fn freedoms_are_those_of_the_other_bodies() {
+    let grounded = carousel(0.0, 0.1)
+        + "[[joint]]\nname = \"pillar\"\ntype = \"revolute\"\nbetween = [\"world\", \"base\"]\nat = [0, 0, 0]\n\
+           axis = [0, 1, 0]\nspan = 1\nstiffness = 1e6\n";
+    for text in [carousel(0.0, 0.1), grounded] {
+        let facts = facts(&Scene::parse(&text, "carousel.toml").unwrap());
+        assert_eq!((facts.freedoms, facts.equations), (Some(1), 6));
+        assert!(facts.locked.is_empty() && facts.jammed.is_empty(), "{facts:?}");
+    }
 }
 
 /// `driven` alone changes the hash of a model: snapshots of the one do not fit the other.

@@ -45,8 +45,10 @@ impl Target for SnapshotTarget {
         let method = method(&mut bytes);
         let mut plant = match plant(scene, &method, STEP) {
             Ok(plant) => plant,
-            // What a law remembers is not for every scheme, and no law for comparison.
-            Err(PlantError::Memory { .. } | PlantError::Laws { .. }) => return Ok(Reach::Refused),
+            // Memories of laws and driven bodies are not for every scheme, and no law for comparison.
+            Err(
+                PlantError::Memory { .. } | PlantError::Laws { .. } | PlantError::Driven { .. },
+            ) => return Ok(Reach::Refused),
             Err(error) => return Err(Finding::new("a plant", error)),
         };
         let _ = plant.advance(u64::from(byte(&mut bytes) % 4));

@@ -1,13 +1,13 @@
 //! Freedoms that the joints leave at the initial pose.
 //!
 //! `scene => freedoms, bodies that cannot move`. Each joint counts as the constraints of its type, independent of its
-//! realisation; raw elements are springs and constrain nothing. Redundant constraints of loops count once, and
+//! realisation; raw elements are springs and constrain nothing. A driven body counts as the ground. Redundant constraints of loops count once, and
 //! singular poses are examined beyond first order (`closure::mobility`).
 
 use std::collections::BTreeMap;
 
 use dbd_kernel::model::{Group, Law};
-use dbd_kernel::{BodyIndex, F64, Geometry, Quaternion, Vec3};
+use dbd_kernel::{Body, BodyIndex, F64, Geometry, Quaternion, Vec3};
 
 use crate::closure::{self, Closure, Mobility, Place, Pose, Turn};
 use crate::direction::normals;
@@ -50,7 +50,11 @@ pub(super) fn held(scene: &Scene) -> Option<Held> {
     }
     let scale = closure::arm(&all, &movable);
     let jammed = jammed(scene, &holds, &poses, scale);
-    let mobility = closure::mobility(&all, &poses, scale);
+    let mut mobility = closure::mobility(&all, &poses, scale);
+    // No joint holds a driven body here; inputs do.
+    let driven = 6 * scene.model.bodies.iter().filter(|body| body.is_driven()).count();
+    mobility.freedoms -= driven;
+    mobility.first_order -= driven;
     let stiffest = holds.iter().map(|hold| hold.stiffness).fold(0.0, f64::max);
     holds.retain(|hold| hold.stiffness > MOUNT * stiffest);
     let locked = locked(&closures(&holds), &poses, movable, scale);
@@ -147,7 +151,9 @@ fn holds(scene: &Scene) -> Vec<Hold> {
         for number in info.groups.clone().take(revolutes) {
             let stiffness = law(scene, &scene.model.groups[number], 0).0;
             let closure = closure(scene, &frames, info, number);
-            holds.push(Hold { joint, closure, stiffness });
+            if closure.ends.iter().any(|end| !end.is_world()) {
+                holds.push(Hold { joint, closure, stiffness });
+            }
         }
     }
     holds
@@ -177,8 +183,14 @@ fn closure(
         [axis; 2]
     };
     let axes = axes.map(|axis| crate::direction::unit(axis).unwrap_or(Vec3::new(0.0, 0.0, 1.0)));
+    let is_driven =
+        |body: BodyIndex| scene.model.bodies.get(body.row()).is_some_and(Body::is_driven);
+    let ends = ends.map(|end| match is_driven(end.body) {
+        true => End { body: BodyIndex::WORLD, ..end },
+        false => end,
+    });
     Closure {
-        ends: [group.a, group.b],
+        ends: ends.map(|end| end.body),
         place,
         turn,
         points: [0, 1].map(|end| ends[end].to_local(at_w)),

@@ -23,9 +23,9 @@ pub use stiffness::{
 /// Facts about a scene without running it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
-    /// Equations of motion: 6 per body.
+    /// Equations of motion: 6 per body that is not driven.
     pub equations: usize,
-    /// Equations of a solver with constraints: 6 per body and one per independent constraint (Franco & Degani 2026,
+    /// Equations of a solver with constraints: those and one per independent constraint (Franco & Degani 2026,
     /// Table 7a); where [`Self::freedoms`] is `None`, one per constraint.
     pub constraint_equations: usize,
     /// Degrees of freedom at and near the initial pose: redundant constraints of loops count once, and motions that
@@ -95,7 +95,7 @@ pub fn joint_dampings(scene: &Scene) -> Vec<ElementDamping> {
 /// Counts, lengths and islands.
 #[must_use]
 pub fn facts(scene: &Scene) -> Facts {
-    let equations = 6 * scene.model.bodies.len();
+    let equations = 6 * scene.model.bodies.iter().filter(|body| !body.is_driven()).count();
     let constraints: usize = scene.joints.iter().map(|joint| joint.holds as usize).sum();
     let groups = lengths::groups(scene);
     let joints = scene.joints.iter().map(|joint| {
