@@ -11,6 +11,7 @@ use crate::model::{ModelRef, Terms};
 use crate::real::Real as _;
 use crate::schedule::{self, KnotStep, Signal, StageTime};
 use crate::sources::{self, SourceStep};
+use crate::space::Linear as _;
 
 /// Sets the velocities of driven bodies to those of the present signals.
 #[inline(always)]
@@ -86,8 +87,12 @@ fn set<P: Geometry, T: Terms<P>>(
         if let Some(angular) = angular {
             let mut frame = P::Frame::default();
             P::set_frame(&mut frame, &state.position, &state.orientation);
-            state.angular_velocity = P::Spin::default();
-            P::spin_up(&mut state.angular_velocity, P::moment_to_body(&frame, angular));
+            let spin = P::moment_to_body(&frame, angular);
+            // The orientation of a restored state may be no rotation; the step then fails by itself.
+            if spin.dot(spin).is_finite() {
+                state.angular_velocity = P::Spin::default();
+                P::spin_up(&mut state.angular_velocity, spin);
+            }
         }
     }
 }
