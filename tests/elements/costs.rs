@@ -4,17 +4,20 @@ use dbd_tests::page::{block, grouped, table};
 use dbd_tests::results::rows;
 
 /// Elements as counted: name of the scene, what it is, the most instructions that it ought to cost.
-const ELEMENTS: [(&str, &str, Option<f64>); 16] = [
+const ELEMENTS: [(&str, &str, Option<f64>); 26] = [
     ("tsda", "a TSDA without damping", None),
     ("spring-table", "`distance-spring`, five knots", None),
     ("winch", "a TSDA with damping and an input of its free length", None),
     ("limits-free", "`limits` of a revolute joint with dissipation, within the range", Some(250.0)),
     ("limits-reached", "the same, beyond it", Some(250.0)),
+    ("limits-soft", "the same with a soft start, within it", Some(250.0)),
     ("friction", "`friction` of a revolute joint, Coulomb's", Some(350.0)),
     ("friction-stribeck", "the same with breakaway, Stribeck's and viscous friction", Some(350.0)),
+    ("friction-load", "Coulomb's with `load`", Some(350.0)),
     ("servo", "position servo with a limit", None),
     ("drive", "voltage drive with winding, rotor and gear", Some(700.0)),
     ("drive-play", "the same with clearance, the teeth apart", Some(700.0)),
+    ("drive-dq", "voltage drive with windings in rotor axes", Some(700.0)),
     ("coupling", "coupling of two revolute joints with damping", None),
     (
         "contact-free",
@@ -23,8 +26,15 @@ const ELEMENTS: [(&str, &str, Option<f64>); 16] = [
     ),
     ("contact-pressed", "the same, in contact", Some(900.0)),
     ("wheel", "`wheel-contact` with damping and rolling resistance, standing", Some(900.0)),
+    ("balls", "`sphere-contact` with friction and damping, in contact", Some(900.0)),
     ("bushing-undamped", "`bushing` without damping", None),
     ("bushing", "`bushing` with six dampings", None),
+    ("bushing-curves", "`bushing-curves` of three knots, without damping", None),
+    ("bushing-matrix", "`bushing-matrix` without damping", None),
+    ("bushing-maxwell", "`bushing-maxwell`", None),
+    ("sensor", "encoder with noise and delay at a revolute joint", None),
+    ("actuator", "input `joint_torque` with lag, delay and limits", None),
+    ("driven", "a driven body with a sine as its velocity", None),
 ];
 
 #[test]

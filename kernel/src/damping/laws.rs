@@ -57,6 +57,10 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
         self.sweep.h
     }
 
+    fn is_evaluated(&self) -> bool {
+        self.sweep.evaluated
+    }
+
     fn seen(&self, [a, b]: [BodyIndex; 2]) -> Option<Seen<'_, P>> {
         let places = self.sweep.places;
         let end = |index: BodyIndex| {

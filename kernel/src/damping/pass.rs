@@ -21,6 +21,8 @@ pub(crate) struct Sweep<'s, P: Geometry, K> {
     pub(crate) shares: &'s [Share<P::Real>],
     /// The kick just before.
     pub(crate) kick: K,
+    /// Whether this pose was evaluated.
+    pub(crate) evaluated: bool,
 }
 
 impl<P: Geometry, K: Kick<P>> Sweep<'_, P, K> {

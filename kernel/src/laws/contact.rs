@@ -26,6 +26,8 @@ pub struct Held<V> {
     pub arm: V,
     /// Whether the bodies are in contact.
     pub touched: bool,
+    /// Whether they are apart at the pose of the last evaluation: no part of the words.
+    pub apart: bool,
 }
 
 impl<V: Linear> Held<V> {
@@ -186,7 +188,7 @@ impl<P: Geometry> Touching<P> {
     ) -> Held<P::Vector> {
         let [_, way, _] = self.ways;
         let anchor = seen.a.to_axes(way + seen.b.to_world(arm)) - give;
-        Held { anchor, arm, touched: true }
+        Held { anchor, arm, touched: true, apart: false }
     }
 
     /// \[m\] the lever arms of the stored point, the displacement from A's point to it.

@@ -10,6 +10,7 @@ use crate::laws::hinge::{Hinge, Turns};
 use crate::laws::interaction::Springs;
 use crate::real::Real;
 use crate::space::Linear as _;
+use crate::words::{WordSource, WordVisitor, Words};
 
 /// \[m, m/s\] the travel of B's point from A's along an axis of A, and its rate.
 #[inline(always)]
@@ -40,12 +41,86 @@ enum CoordinateKind<P: Geometry> {
     Distance(P::Vector, [P::Vector; 2]),
 }
 
+/// Half revolutions of a torsion angle with the angle at a pose: memory of a law about an axis. The angle is kept for
+/// further calls at that pose and is no part of the words.
+#[derive(Clone, Copy)]
+pub struct TurnPose<P: Geometry> {
+    /// Half revolutions.
+    pub turns: Turns,
+    /// \[rad\] the angle and its gradient, world; `None` where undefined.
+    kept: Option<(P::Real, P::Moment)>,
+}
+
+impl<P: Geometry> Default for TurnPose<P> {
+    fn default() -> Self {
+        Self { turns: Turns::default(), kept: None }
+    }
+}
+
+impl<P: Geometry> Words for TurnPose<P> {
+    fn visit(&self, visitor: &mut impl WordVisitor) {
+        self.turns.visit(visitor);
+    }
+    fn fill(&mut self, source: &mut impl WordSource) {
+        self.turns.fill(source);
+    }
+}
+
+impl<P: Geometry> TurnPose<P> {
+    /// Updates the half revolutions at a pose and keeps its angle, of which `part` of the half revolutions count; returns
+    /// the angle with that part of those before.
+    #[inline(always)]
+    pub(super) fn settle(
+        &mut self,
+        seen: &Seen<'_, P>,
+        axis: &Hinge<P::Space>,
+        part: impl Fn(Turns) -> Turns,
+    ) -> Option<Coordinate<P>> {
+        self.kept = None;
+        let torsion_angle = axis.seen(seen)?;
+        let before = part(self.turns);
+        torsion_angle.settle(&mut self.turns);
+        let after = part(self.turns);
+        let (mut value, gradient) = torsion_angle.angle(after);
+        let gradient = seen.a.moment_to_world(gradient);
+        self.kept = Some((value, gradient));
+        if before != after {
+            value = torsion_angle.angle(before).0;
+        }
+        Some(Coordinate { value, way: CoordinateKind::Turn(gradient) })
+    }
+
+    /// Keeps the angle of a pose with these half revolutions.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, seen: &Seen<'_, P>, axis: &Hinge<P::Space>, turns: Turns) {
+        self.kept = Coordinate::turned(seen, axis, turns);
+    }
+
+    /// The angle of the pose as a coordinate; `None` where it is undefined.
+    #[inline(always)]
+    pub(super) fn coordinate(&self) -> Option<Coordinate<P>> {
+        let (value, gradient) = self.kept?;
+        Some(Coordinate { value, way: CoordinateKind::Turn(gradient) })
+    }
+}
+
 impl<P: Geometry> Coordinate<P> {
+    /// The angle of B in A about an axis since t = 0 and its gradient, world; `None` where that is undefined.
+    #[inline(always)]
+    fn turned(
+        seen: &Seen<'_, P>,
+        axis: &Hinge<P::Space>,
+        turns: Turns,
+    ) -> Option<(P::Real, P::Moment)> {
+        let (value, gradient) = axis.seen(seen)?.angle(turns);
+        Some((value, seen.a.moment_to_world(gradient)))
+    }
+
     /// The angle of B in A about an axis since t = 0; `None` where that is undefined.
     #[inline(always)]
     pub(super) fn turn(seen: &Seen<'_, P>, axis: &Hinge<P::Space>, turns: Turns) -> Option<Self> {
-        let (value, gradient) = axis.seen(seen)?.angle(turns);
-        Some(Self { value, way: CoordinateKind::Turn(seen.a.moment_to_world(gradient)) })
+        let (value, gradient) = Self::turned(seen, axis, turns)?;
+        Some(Self { value, way: CoordinateKind::Turn(gradient) })
     }
 
     /// The displacement of B's point from A's along an axis of A.

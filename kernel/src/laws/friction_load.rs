@@ -160,14 +160,15 @@ impl<P: Geometry> SlideFrictionLoad<P> {
     }
 }
 
-/// The law, with its memory and the unit of its friction and of its deflection.
+/// The law of a friction, with its memory and the unit of its friction and of its deflection.
 macro_rules! with_load {
-    ($law:ident, $memory:ty, $effort:literal, $unit:literal) => {
+    ($law:ident of $friction:ty, $memory:ty, $effort:literal, $unit:literal) => {
         impl<P: Geometry> Interaction<P> for $law<P> {
             type State = Loaded<$memory, P::Real>;
             type Dampers = [(); 2];
             const ADVANCES: bool = true;
             const BEARS: bool = true;
+            const KEEPS: bool = <$friction as Interaction<P>>::KEEPS;
             const QUANTITIES: &'static [Quantity] =
                 &[Quantity { name: "slip", unit: $unit }, Quantity { name: "load", unit: $effort }];
 
@@ -189,6 +190,11 @@ macro_rules! with_load {
             #[inline(always)]
             fn settle(&self, seen: &Seen<'_, P>, memory: &mut Self::State) {
                 self.friction(memory.load).settle(seen, &mut memory.slip);
+            }
+
+            #[inline(always)]
+            fn keep_pose(&self, seen: &Seen<'_, P>, memory: &mut Self::State) {
+                self.friction(memory.load).keep_pose(seen, &mut memory.slip);
             }
 
             #[inline(always)]
@@ -243,5 +249,5 @@ macro_rules! with_load {
     };
 }
 
-with_load!(HingeFrictionLoad, TurnSlip<P::Real>, "N·m", "rad");
-with_load!(SlideFrictionLoad, Slip<P::Real>, "N", "m");
+with_load!(HingeFrictionLoad of HingeFriction<P>, TurnSlip<P>, "N·m", "rad");
+with_load!(SlideFrictionLoad of SlideFriction<P>, Slip<P::Real>, "N", "m");

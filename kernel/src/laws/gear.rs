@@ -27,6 +27,12 @@ impl<R: Real> Default for Rotor<R> {
 }
 
 impl<R: Real> Rotor<R> {
+    /// Advances its lead by `h` \[s\].
+    #[inline(always)]
+    pub(super) fn advance(&mut self, h: R) {
+        self.ahead = self.ahead + h * self.rate;
+    }
+
     /// \[W\] the power of the effort.
     pub(super) fn supply(&self) -> R {
         self.effort * self.rate

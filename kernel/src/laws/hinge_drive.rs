@@ -2,7 +2,7 @@
 
 use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
-use crate::laws::coordinate::Coordinate;
+use crate::laws::coordinate::TurnPose;
 use crate::laws::end::Seen;
 use crate::laws::gear::{Gear, Rotor};
 use crate::laws::hinge::Turns;
@@ -78,27 +78,27 @@ law! {
 }
 
 /// The memory of a drive of a rotation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TurnRotor<R> {
-    /// Half revolutions.
-    pub turns: Turns,
+#[derive(Clone, Copy)]
+pub struct TurnRotor<P: Geometry> {
+    /// The torsion angle.
+    pub turn: TurnPose<P>,
     /// Its rotor.
-    pub rotor: Rotor<R>,
+    pub rotor: Rotor<P::Real>,
 }
 
-impl<R: Real> Default for TurnRotor<R> {
+impl<P: Geometry> Default for TurnRotor<P> {
     fn default() -> Self {
-        Self { turns: Turns::default(), rotor: Rotor::default() }
+        Self { turn: TurnPose::default(), rotor: Rotor::default() }
     }
 }
 
-impl<R: Real> Words for TurnRotor<R> {
+impl<P: Geometry> Words for TurnRotor<P> {
     fn visit(&self, visitor: &mut impl WordVisitor) {
-        self.turns.visit(visitor);
+        self.turn.visit(visitor);
         self.rotor.visit(visitor);
     }
     fn fill(&mut self, source: &mut impl WordSource) {
-        self.turns.fill(source);
+        self.turn.fill(source);
         self.rotor.fill(source);
     }
 }
@@ -128,17 +128,17 @@ macro_rules! drive {
             /// Uses an angle near that of the last step: in single precision a large revolution count would leave no digits for
             /// the gear.
             #[inline(always)]
-            pub(super) fn geared(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Geared<P, $rubs>> {
-                let turn = Coordinate::turn(seen, &self.axis, turns.odd())?;
-                Some(Geared::new(turn, self.gear(), self.friction()))
+            pub(super) fn geared(&self, turn: &TurnPose<P>) -> Option<Geared<P, $rubs>> {
+                Some(Geared::new(turn.coordinate()?, self.gear(), self.friction()))
             }
         }
 
         impl<P: Geometry> Interaction<P> for $law<P> {
-            type State = TurnRotor<P::Real>;
+            type State = TurnRotor<P>;
             type Dampers = [(); 1];
             const ADVANCES: bool = true;
             const INNER: bool = true;
+            const KEEPS: bool = true;
             const QUANTITIES: &'static [Quantity] = &[
                 Quantity { name: "load", unit: "N·m" },
                 Quantity { name: "effort", unit: "N·m" },
@@ -147,41 +147,44 @@ macro_rules! drive {
             ];
 
             #[inline(always)]
-            fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut TurnRotor<P::Real>) {
-                let Some(geared) = self.geared(seen, memory.turns) else { return };
-                geared.advance(h, &mut memory.rotor);
+            fn advance(&self, _: &Seen<'_, P>, h: P::Real, memory: &mut TurnRotor<P>) {
+                memory.rotor.advance(h);
             }
 
             #[inline(always)]
-            fn settle(&self, seen: &Seen<'_, P>, memory: &mut TurnRotor<P::Real>) {
-                let Some(geared) = self.geared(seen, memory.turns) else { return };
-                let Some(torsion_angle) = self.axis.seen(seen) else { return };
-                torsion_angle.settle(&mut memory.turns);
-                let (next, _) = torsion_angle.angle(memory.turns.odd());
-                geared.settle(seen, next, &mut memory.rotor);
+            fn settle(&self, seen: &Seen<'_, P>, memory: &mut TurnRotor<P>) {
+                let Some(turn) = memory.turn.settle(seen, &self.axis, Turns::odd) else { return };
+                let Some(next) = memory.turn.coordinate() else { return };
+                let geared = Geared::<P, $rubs>::new(turn, self.gear(), self.friction());
+                geared.settle(seen, next.value, &mut memory.rotor);
+            }
+
+            #[inline(always)]
+            fn keep_pose(&self, seen: &Seen<'_, P>, memory: &mut TurnRotor<P>) {
+                memory.turn.keep(seen, &self.axis, memory.turn.turns.odd());
             }
 
             #[inline(always)]
             fn force_pair(
                 &self,
                 seen: &Seen<'_, P>,
-                memory: &TurnRotor<P::Real>,
+                memory: &TurnRotor<P>,
             ) -> Option<ForcePair<P::Space>> {
-                Some(self.geared(seen, memory.turns)?.force_pair(seen, &memory.rotor))
+                Some(self.geared(&memory.turn)?.force_pair(seen, &memory.rotor))
             }
 
-            fn energy(&self, seen: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {
-                let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
+            fn energy(&self, seen: &Seen<'_, P>, memory: &TurnRotor<P>) -> P::Real {
+                let Some(geared) = self.geared(&memory.turn) else { return P::Real::ZERO };
                 geared.energy(seen, &memory.rotor)
             }
 
             fn tangent(
                 &self,
                 seen: &Seen<'_, P>,
-                memory: &TurnRotor<P::Real>,
+                memory: &TurnRotor<P>,
                 visit: Springs<'_, P>,
             ) -> [P::Real; 2] {
-                let Some(geared) = self.geared(seen, memory.turns) else {
+                let Some(geared) = self.geared(&memory.turn) else {
                     return [P::Real::ZERO; 2];
                 };
                 geared.tangent(seen, &memory.rotor, visit)
@@ -191,10 +194,10 @@ macro_rules! drive {
             fn dampers(
                 &self,
                 seen: &Seen<'_, P>,
-                memory: &TurnRotor<P::Real>,
+                memory: &TurnRotor<P>,
                 visit: &mut impl FnMut(Damper<P>),
             ) {
-                let Some(geared) = self.geared(seen, memory.turns) else { return };
+                let Some(geared) = self.geared(&memory.turn) else { return };
                 visit(geared.damper(seen, &memory.rotor));
             }
 
@@ -203,9 +206,9 @@ macro_rules! drive {
                 &self,
                 seen: &Seen<'_, P>,
                 h: P::Real,
-                memory: &mut TurnRotor<P::Real>,
+                memory: &mut TurnRotor<P>,
             ) -> P::Real {
-                let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
+                let Some(geared) = self.geared(&memory.turn) else { return P::Real::ZERO };
                 let driven = (&self.effort(), seen.signal(self.input));
                 geared.kick(driven, h, &mut memory.rotor)
             }
@@ -215,21 +218,21 @@ macro_rules! drive {
                 &self,
                 seen: &Seen<'_, P>,
                 time: [P::Real; 2],
-                memory: &mut TurnRotor<P::Real>,
+                memory: &mut TurnRotor<P>,
             ) {
-                let Some(geared) = self.geared(seen, memory.turns) else { return };
+                let Some(geared) = self.geared(&memory.turn) else { return };
                 let driven = (&self.effort(), seen.signal(self.input));
-                let place = geared.place(&memory.rotor) + memory.turns.whole();
+                let place = geared.place(&memory.rotor) + memory.turn.turns.whole();
                 geared.drive(driven, place, time, &mut memory.rotor);
             }
 
             #[inline(always)]
-            fn inner(&self, memory: &TurnRotor<P::Real>, kick: P::Real) -> Inner<P::Real> {
+            fn inner(&self, memory: &TurnRotor<P>, kick: P::Real) -> Inner<P::Real> {
                 self.gear().inner(&memory.rotor, kick)
             }
 
             #[inline(always)]
-            fn set_inner(&self, rate: P::Real, memory: &mut TurnRotor<P::Real>) {
+            fn set_inner(&self, rate: P::Real, memory: &mut TurnRotor<P>) {
                 memory.rotor.rate = rate;
             }
 
@@ -237,7 +240,7 @@ macro_rules! drive {
                 self.gear().square(self.servo_stiffness)
             }
 
-            fn supply(&self, _: &Seen<'_, P>, memory: &TurnRotor<P::Real>) -> P::Real {
+            fn supply(&self, _: &Seen<'_, P>, memory: &TurnRotor<P>) -> P::Real {
                 memory.rotor.supply()
             }
 
@@ -254,10 +257,10 @@ macro_rules! drive {
             fn read(
                 &self,
                 quantity: usize,
-                seen: &Seen<'_, P>,
-                memory: &TurnRotor<P::Real>,
+                _: &Seen<'_, P>,
+                memory: &TurnRotor<P>,
             ) -> P::Real {
-                let Some(geared) = self.geared(seen, memory.turns) else { return P::Real::ZERO };
+                let Some(geared) = self.geared(&memory.turn) else { return P::Real::ZERO };
                 geared.read(quantity, &memory.rotor)
             }
         }

@@ -51,21 +51,21 @@ law! {
 }
 
 /// The memory of a drive of a rotation with windings in rotor axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WoundRotor<R> {
+#[derive(Clone, Copy)]
+pub struct WoundRotor<P: Geometry> {
     /// Its rotor.
-    pub rotor: TurnRotor<R>,
+    pub rotor: TurnRotor<P>,
     /// The currents of its windings.
-    pub currents: Currents<R>,
+    pub currents: Currents<P::Real>,
 }
 
-impl<R: Real> Default for WoundRotor<R> {
+impl<P: Geometry> Default for WoundRotor<P> {
     fn default() -> Self {
         Self { rotor: TurnRotor::default(), currents: Currents::default() }
     }
 }
 
-impl<R: Real> Words for WoundRotor<R> {
+impl<P: Geometry> Words for WoundRotor<P> {
     fn visit(&self, visitor: &mut impl WordVisitor) {
         self.rotor.visit(visitor);
         self.currents.visit(visitor);
@@ -122,14 +122,12 @@ impl<P: Geometry> HingeDriveDq<P> {
     }
 }
 
-/// The memory.
-type Memory<P> = WoundRotor<<P as Geometry>::Real>;
-
 impl<P: Geometry> Interaction<P> for HingeDriveDq<P> {
-    type State = WoundRotor<P::Real>;
+    type State = WoundRotor<P>;
     type Dampers = [(); 1];
     const ADVANCES: bool = true;
     const INNER: bool = true;
+    const KEEPS: bool = true;
     const QUANTITIES: &'static [Quantity] = &[
         Quantity { name: "load", unit: "N·m" },
         Quantity { name: "effort", unit: "N·m" },
@@ -140,43 +138,57 @@ impl<P: Geometry> Interaction<P> for HingeDriveDq<P> {
     ];
 
     #[inline(always)]
-    fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut Memory<P>) {
+    fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut WoundRotor<P>) {
         self.geared_drive().advance(seen, h, &mut memory.rotor);
     }
 
     #[inline(always)]
-    fn settle(&self, seen: &Seen<'_, P>, memory: &mut Memory<P>) {
+    fn settle(&self, seen: &Seen<'_, P>, memory: &mut WoundRotor<P>) {
         self.geared_drive().settle(seen, &mut memory.rotor);
     }
 
     #[inline(always)]
-    fn force_pair(&self, seen: &Seen<'_, P>, memory: &Memory<P>) -> Option<ForcePair<P::Space>> {
+    fn keep_pose(&self, seen: &Seen<'_, P>, memory: &mut WoundRotor<P>) {
+        self.geared_drive().keep_pose(seen, &mut memory.rotor);
+    }
+
+    #[inline(always)]
+    fn force_pair(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &WoundRotor<P>,
+    ) -> Option<ForcePair<P::Space>> {
         self.geared_drive().force_pair(seen, &memory.rotor)
     }
 
-    fn energy(&self, seen: &Seen<'_, P>, memory: &Memory<P>) -> P::Real {
+    fn energy(&self, seen: &Seen<'_, P>, memory: &WoundRotor<P>) -> P::Real {
         self.geared_drive().energy(seen, &memory.rotor)
     }
 
     fn tangent(
         &self,
         seen: &Seen<'_, P>,
-        memory: &Memory<P>,
+        memory: &WoundRotor<P>,
         visit: Springs<'_, P>,
     ) -> [P::Real; 2] {
         self.geared_drive().tangent(seen, &memory.rotor, visit)
     }
 
     #[inline(always)]
-    fn dampers(&self, seen: &Seen<'_, P>, memory: &Memory<P>, visit: &mut impl FnMut(Damper<P>)) {
+    fn dampers(
+        &self,
+        seen: &Seen<'_, P>,
+        memory: &WoundRotor<P>,
+        visit: &mut impl FnMut(Damper<P>),
+    ) {
         self.geared_drive().dampers(seen, &memory.rotor, visit);
     }
 
     #[inline(always)]
-    fn kick(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut Memory<P>) -> P::Real {
-        let TurnRotor { turns, rotor } = &mut memory.rotor;
+    fn kick(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut WoundRotor<P>) -> P::Real {
+        let TurnRotor { turn, rotor } = &mut memory.rotor;
         let drive = self.geared_drive();
-        let Some(geared) = drive.geared(seen, *turns) else { return P::Real::ZERO };
+        let Some(geared) = drive.geared(turn) else { return P::Real::ZERO };
         if self.machine().is_fed() {
             let (effort, _) = self.fed(seen);
             return geared.kick((&drive.effort(), effort), h, rotor);
@@ -185,10 +197,10 @@ impl<P: Geometry> Interaction<P> for HingeDriveDq<P> {
     }
 
     #[inline(always)]
-    fn drive(&self, seen: &Seen<'_, P>, time: [P::Real; 2], memory: &mut Memory<P>) {
-        let WoundRotor { rotor: TurnRotor { turns, rotor }, currents } = memory;
+    fn drive(&self, seen: &Seen<'_, P>, time: [P::Real; 2], memory: &mut WoundRotor<P>) {
+        let WoundRotor { rotor: TurnRotor { turn, rotor }, currents } = memory;
         let (drive, machine) = (self.geared_drive(), self.machine());
-        let Some(geared) = drive.geared(seen, *turns) else { return };
+        let Some(geared) = drive.geared(turn) else { return };
         if machine.is_fed() {
             let effort;
             (effort, *currents) = self.fed(seen);
@@ -198,12 +210,12 @@ impl<P: Geometry> Interaction<P> for HingeDriveDq<P> {
     }
 
     #[inline(always)]
-    fn inner(&self, memory: &Memory<P>, kick: P::Real) -> Inner<P::Real> {
+    fn inner(&self, memory: &WoundRotor<P>, kick: P::Real) -> Inner<P::Real> {
         self.geared_drive().inner(&memory.rotor, kick)
     }
 
     #[inline(always)]
-    fn set_inner(&self, rate: P::Real, memory: &mut Memory<P>) {
+    fn set_inner(&self, rate: P::Real, memory: &mut WoundRotor<P>) {
         memory.rotor.rotor.rate = rate;
     }
 
@@ -211,11 +223,11 @@ impl<P: Geometry> Interaction<P> for HingeDriveDq<P> {
         self.geared_drive().inner_square()
     }
 
-    fn supply(&self, seen: &Seen<'_, P>, memory: &Memory<P>) -> P::Real {
+    fn supply(&self, seen: &Seen<'_, P>, memory: &WoundRotor<P>) -> P::Real {
         self.geared_drive().supply(seen, &memory.rotor)
     }
 
-    fn loss(&self, memory: &Memory<P>) -> P::Real {
+    fn loss(&self, memory: &WoundRotor<P>) -> P::Real {
         self.geared_drive().loss(&memory.rotor)
     }
 
@@ -224,7 +236,7 @@ impl<P: Geometry> Interaction<P> for HingeDriveDq<P> {
         self.geared_drive().check()
     }
 
-    fn read(&self, quantity: usize, seen: &Seen<'_, P>, memory: &Memory<P>) -> P::Real {
+    fn read(&self, quantity: usize, seen: &Seen<'_, P>, memory: &WoundRotor<P>) -> P::Real {
         match quantity {
             4 => memory.currents.d,
             5 => memory.currents.q,

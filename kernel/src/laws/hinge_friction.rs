@@ -2,9 +2,8 @@
 
 use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
-use crate::laws::coordinate::Coordinate;
+use crate::laws::coordinate::TurnPose;
 use crate::laws::end::Seen;
-use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::laws::slip::{Friction, Rubbing, Slip};
 use crate::real::Real;
@@ -31,27 +30,27 @@ law! {
 }
 
 /// Its memory.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TurnSlip<R> {
-    /// Half revolutions of the torsion angle.
-    pub turns: Turns,
+#[derive(Clone, Copy)]
+pub struct TurnSlip<P: Geometry> {
+    /// The torsion angle.
+    pub turn: TurnPose<P>,
     /// The slip of the torsion angle.
-    pub slip: Slip<R>,
+    pub slip: Slip<P::Real>,
 }
 
-impl<R: Real> Default for TurnSlip<R> {
+impl<P: Geometry> Default for TurnSlip<P> {
     fn default() -> Self {
-        Self { turns: Turns(0), slip: Slip::default() }
+        Self { turn: TurnPose::default(), slip: Slip::default() }
     }
 }
 
-impl<R: Real> Words for TurnSlip<R> {
+impl<P: Geometry> Words for TurnSlip<P> {
     fn visit(&self, visitor: &mut impl WordVisitor) {
-        self.turns.visit(visitor);
+        self.turn.visit(visitor);
         self.slip.visit(visitor);
     }
     fn fill(&mut self, source: &mut impl WordSource) {
-        self.turns.fill(source);
+        self.turn.fill(source);
         self.slip.fill(source);
     }
 }
@@ -64,66 +63,61 @@ impl<P: Geometry> HingeFriction<P> {
     }
 
     #[inline(always)]
-    fn rubbing(&self, seen: &Seen<'_, P>, memory: &TurnSlip<P::Real>) -> Option<Rubbing<P>> {
-        let turn = Coordinate::turn(seen, &self.axis, memory.turns)?;
-        Some(Rubbing::new(turn, self.friction(), &memory.slip))
+    fn rubbing(&self, memory: &TurnSlip<P>) -> Option<Rubbing<P>> {
+        Some(Rubbing::new(memory.turn.coordinate()?, self.friction(), &memory.slip))
     }
 }
 
 impl<P: Geometry> Interaction<P> for HingeFriction<P> {
-    type State = TurnSlip<P::Real>;
+    type State = TurnSlip<P>;
     type Dampers = [(); 2];
     const ADVANCES: bool = true;
+    const KEEPS: bool = true;
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "slip", unit: "rad" }];
 
     #[inline(always)]
-    fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut TurnSlip<P::Real>) {
+    fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut TurnSlip<P>) {
         self.settle(seen, memory);
-        if let Some(rubbing) = self.rubbing(seen, memory) {
+        if let Some(rubbing) = self.rubbing(memory) {
             rubbing.advance(h, &mut memory.slip);
         }
     }
 
     #[inline(always)]
-    fn settle(&self, seen: &Seen<'_, P>, memory: &mut TurnSlip<P::Real>) {
-        let Some(torsion_angle) = self.axis.seen(seen) else { return };
-        torsion_angle.settle(&mut memory.turns);
-        if let Some(rubbing) = self.rubbing(seen, memory) {
+    fn settle(&self, seen: &Seen<'_, P>, memory: &mut TurnSlip<P>) {
+        memory.turn.settle(seen, &self.axis, |turns| turns);
+        if let Some(rubbing) = self.rubbing(memory) {
             rubbing.settle(&mut memory.slip);
         }
     }
 
     #[inline(always)]
-    fn force_pair(
-        &self,
-        seen: &Seen<'_, P>,
-        memory: &TurnSlip<P::Real>,
-    ) -> Option<ForcePair<P::Space>> {
-        Some(self.rubbing(seen, memory)?.force_pair(seen))
+    fn keep_pose(&self, seen: &Seen<'_, P>, memory: &mut TurnSlip<P>) {
+        memory.turn.keep(seen, &self.axis, memory.turn.turns);
     }
 
-    fn energy(&self, seen: &Seen<'_, P>, memory: &TurnSlip<P::Real>) -> P::Real {
-        self.rubbing(seen, memory).map_or(P::Real::ZERO, |rubbing| rubbing.energy(&memory.slip))
+    #[inline(always)]
+    fn force_pair(&self, seen: &Seen<'_, P>, memory: &TurnSlip<P>) -> Option<ForcePair<P::Space>> {
+        Some(self.rubbing(memory)?.force_pair(seen))
+    }
+
+    fn energy(&self, _: &Seen<'_, P>, memory: &TurnSlip<P>) -> P::Real {
+        self.rubbing(memory).map_or(P::Real::ZERO, |rubbing| rubbing.energy(&memory.slip))
     }
 
     fn tangent(
         &self,
         seen: &Seen<'_, P>,
-        memory: &TurnSlip<P::Real>,
+        memory: &TurnSlip<P>,
         visit: Springs<'_, P>,
     ) -> [P::Real; 2] {
-        let rubbing = self.rubbing(seen, memory);
+        let rubbing = self.rubbing(memory);
         rubbing.map_or([P::Real::ZERO; 2], |rubbing| rubbing.tangent(seen, visit))
     }
 
     #[inline(always)]
-    fn dampers(
-        &self,
-        seen: &Seen<'_, P>,
-        memory: &TurnSlip<P::Real>,
-        visit: &mut impl FnMut(Damper<P>),
-    ) {
-        if let Some(rubbing) = self.rubbing(seen, memory) {
+    fn dampers(&self, seen: &Seen<'_, P>, memory: &TurnSlip<P>, visit: &mut impl FnMut(Damper<P>)) {
+        if let Some(rubbing) = self.rubbing(memory) {
             rubbing.dampers(seen, visit);
         }
     }
@@ -132,7 +126,7 @@ impl<P: Geometry> Interaction<P> for HingeFriction<P> {
         self.friction().check()
     }
 
-    fn read(&self, _: usize, seen: &Seen<'_, P>, memory: &TurnSlip<P::Real>) -> P::Real {
-        self.rubbing(seen, memory).map_or(P::Real::ZERO, |rubbing| rubbing.give(&memory.slip))
+    fn read(&self, _: usize, _: &Seen<'_, P>, memory: &TurnSlip<P>) -> P::Real {
+        self.rubbing(memory).map_or(P::Real::ZERO, |rubbing| rubbing.give(&memory.slip))
     }
 }

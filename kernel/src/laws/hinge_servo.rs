@@ -2,9 +2,8 @@
 
 use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
-use crate::laws::coordinate::Coordinate;
+use crate::laws::coordinate::TurnPose;
 use crate::laws::end::Seen;
-use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::laws::servo::{Effort, Servo};
 use crate::real::Real;
@@ -36,42 +35,50 @@ impl<P: Geometry> HingeServo<P> {
     }
 
     #[inline(always)]
-    fn servo(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Servo<P>> {
-        let turn = Coordinate::turn(seen, &self.axis, turns)?;
-        Some(Servo::new(turn, self.effort(), seen.signal(self.input)))
+    fn servo(&self, seen: &Seen<'_, P>, turn: &TurnPose<P>) -> Option<Servo<P>> {
+        Some(Servo::new(turn.coordinate()?, self.effort(), seen.signal(self.input)))
     }
 }
 
 impl<P: Geometry> Interaction<P> for HingeServo<P> {
-    type State = Turns;
+    type State = TurnPose<P>;
     type Dampers = [(); 1];
+    const KEEPS: bool = true;
     const DRIVES: bool = true;
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "effort", unit: "N·m" }];
 
     #[inline(always)]
-    fn settle(&self, seen: &Seen<'_, P>, turns: &mut Turns) {
-        if let Some(torsion_angle) = self.axis.seen(seen) {
-            torsion_angle.settle(turns);
-        }
+    fn settle(&self, seen: &Seen<'_, P>, turn: &mut TurnPose<P>) {
+        turn.settle(seen, &self.axis, |turns| turns);
     }
 
     #[inline(always)]
-    fn force_pair(&self, seen: &Seen<'_, P>, turns: &Turns) -> Option<ForcePair<P::Space>> {
-        self.servo(seen, *turns).map(|_| ForcePair::ZERO)
+    fn keep_pose(&self, seen: &Seen<'_, P>, turn: &mut TurnPose<P>) {
+        turn.keep(seen, &self.axis, turn.turns);
     }
 
-    fn energy(&self, _: &Seen<'_, P>, _: &Turns) -> P::Real {
+    #[inline(always)]
+    fn force_pair(&self, seen: &Seen<'_, P>, turn: &TurnPose<P>) -> Option<ForcePair<P::Space>> {
+        self.servo(seen, turn).map(|_| ForcePair::ZERO)
+    }
+
+    fn energy(&self, _: &Seen<'_, P>, _: &TurnPose<P>) -> P::Real {
         P::Real::ZERO
     }
 
-    fn tangent(&self, seen: &Seen<'_, P>, turns: &Turns, visit: Springs<'_, P>) -> [P::Real; 2] {
-        let Some(servo) = self.servo(seen, *turns) else { return [P::Real::ZERO; 2] };
+    fn tangent(
+        &self,
+        seen: &Seen<'_, P>,
+        turn: &TurnPose<P>,
+        visit: Springs<'_, P>,
+    ) -> [P::Real; 2] {
+        let Some(servo) = self.servo(seen, turn) else { return [P::Real::ZERO; 2] };
         servo.tangent(seen, visit)
     }
 
     #[inline(always)]
-    fn dampers(&self, seen: &Seen<'_, P>, turns: &Turns, visit: &mut impl FnMut(Damper<P>)) {
-        let Some(servo) = self.servo(seen, *turns) else { return };
+    fn dampers(&self, seen: &Seen<'_, P>, turn: &TurnPose<P>, visit: &mut impl FnMut(Damper<P>)) {
+        let Some(servo) = self.servo(seen, turn) else { return };
         visit(servo.damper(seen));
     }
 
@@ -81,8 +88,8 @@ impl<P: Geometry> Interaction<P> for HingeServo<P> {
         self.effort().check()
     }
 
-    fn read(&self, _: usize, seen: &Seen<'_, P>, turns: &Turns) -> P::Real {
-        let Some(servo) = self.servo(seen, *turns) else { return P::Real::ZERO };
+    fn read(&self, _: usize, seen: &Seen<'_, P>, turn: &TurnPose<P>) -> P::Real {
+        let Some(servo) = self.servo(seen, turn) else { return P::Real::ZERO };
         servo.effort(seen)
     }
 }

@@ -5,9 +5,8 @@
 
 use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
-use crate::laws::coordinate::Coordinate;
+use crate::laws::coordinate::TurnPose;
 use crate::laws::end::Seen;
-use crate::laws::hinge::Turns;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::laws::stop::{Stopped, check, check_soft};
 use crate::real::Real;
@@ -51,45 +50,53 @@ macro_rules! stop {
     ($law:ident, $is_soft:literal $(, $soft:ident)?) => {
         impl<P: Geometry> $law<P> {
             #[inline(always)]
-            fn stopped(&self, seen: &Seen<'_, P>, turns: Turns) -> Option<Stopped<P, $is_soft>> {
+            fn stopped(&self, turn: &TurnPose<P>) -> Option<Stopped<P, $is_soft>> {
                 let [.., soft] = [P::Real::ZERO $(, self.$soft)?];
-                let turn = Coordinate::turn(seen, &self.axis, turns)?;
-                Some(Stopped::within(turn, [self.from, self.to], [self.stiffness, soft]))
+                Some(Stopped::within(turn.coordinate()?, [self.from, self.to], [self.stiffness, soft]))
             }
         }
 
         impl<P: Geometry> Interaction<P> for $law<P> {
-            type State = Turns;
+            type State = TurnPose<P>;
             type Dampers = [(); 1];
+            const KEEPS: bool = true;
             const QUANTITIES: &'static [Quantity] = &[Quantity { name: "depth", unit: "rad" }];
 
             #[inline(always)]
-            fn settle(&self, seen: &Seen<'_, P>, turns: &mut Turns) {
-                if let Some(torsion_angle) = self.axis.seen(seen) {
-                    torsion_angle.settle(turns);
-                }
+            fn settle(&self, seen: &Seen<'_, P>, turn: &mut TurnPose<P>) {
+                turn.settle(seen, &self.axis, |turns| turns);
+            }
+
+            #[inline(always)]
+            fn keep_pose(&self, seen: &Seen<'_, P>, turn: &mut TurnPose<P>) {
+                turn.keep(seen, &self.axis, turn.turns);
+            }
+
+            #[inline(always)]
+            fn is_idle(&self, turn: &TurnPose<P>) -> bool {
+                self.stopped(turn).is_none_or(|stopped| stopped.is_free())
             }
 
             #[inline(always)]
             fn force_pair(
                 &self,
                 seen: &Seen<'_, P>,
-                turns: &Turns,
+                turn: &TurnPose<P>,
             ) -> Option<ForcePair<P::Space>> {
-                Some(self.stopped(seen, *turns)?.force_pair(seen))
+                Some(self.stopped(turn)?.force_pair(seen))
             }
 
-            fn energy(&self, seen: &Seen<'_, P>, turns: &Turns) -> P::Real {
-                self.stopped(seen, *turns).map_or(P::Real::ZERO, |stopped| stopped.energy())
+            fn energy(&self, _: &Seen<'_, P>, turn: &TurnPose<P>) -> P::Real {
+                self.stopped(turn).map_or(P::Real::ZERO, |stopped| stopped.energy())
             }
 
             fn tangent(
                 &self,
                 seen: &Seen<'_, P>,
-                turns: &Turns,
+                turn: &TurnPose<P>,
                 visit: Springs<'_, P>,
             ) -> [P::Real; 2] {
-                let Some(stopped) = self.stopped(seen, *turns) else { return [P::Real::ZERO; 2] };
+                let Some(stopped) = self.stopped(turn) else { return [P::Real::ZERO; 2] };
                 stopped.tangent(seen, visit)
             }
 
@@ -102,13 +109,13 @@ macro_rules! stop {
             fn dampers(
                 &self,
                 seen: &Seen<'_, P>,
-                turns: &Turns,
+                turn: &TurnPose<P>,
                 visit: &mut impl FnMut(Damper<P>),
             ) {
                 if !Interaction::<P>::is_damped(self) {
                     return visit(Damper::idle());
                 }
-                if let Some(stopped) = self.stopped(seen, *turns) {
+                if let Some(stopped) = self.stopped(turn) {
                     visit(stopped.damper(seen, self.dissipation));
                 }
             }
@@ -118,8 +125,8 @@ macro_rules! stop {
                 check([self.from, self.to], self.stiffness, self.dissipation)
             }
 
-            fn read(&self, _: usize, seen: &Seen<'_, P>, turns: &Turns) -> P::Real {
-                self.stopped(seen, *turns).map_or(P::Real::ZERO, |stopped| stopped.depth())
+            fn read(&self, _: usize, _: &Seen<'_, P>, turn: &TurnPose<P>) -> P::Real {
+                self.stopped(turn).map_or(P::Real::ZERO, |stopped| stopped.depth())
             }
         }
     };

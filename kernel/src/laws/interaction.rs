@@ -221,6 +221,8 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     /// Whether [`Self::force_pair`] depends on inputs: setting an input then costs an evaluation. Dampers and drives may
     /// depend on inputs without it.
     const DRIVEN: bool = false;
+    /// Whether [`Self::keep_pose`] keeps something.
+    const KEEPS: bool = false;
     /// The largest number of further pairs of bodies on which it acts, up to
     /// [`MAX_BRANCHES`](crate::laws::MAX_BRANCHES): with one tension along the sum of its own direction and of
     /// theirs. Such a law has at most one damper.
@@ -228,10 +230,24 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     /// The outputs of [`Self::read`].
     const QUANTITIES: &'static [Quantity] = &[];
 
-    /// Updates its memory at the boundary of a step, before [`Self::force_pair`]; must be idempotent. An evaluation may be
-    /// repeated without time passing.
+    /// Updates its memory at the boundary of a step, before [`Self::force_pair`], and does what [`Self::keep_pose`] does;
+    /// must be idempotent. An evaluation may be repeated without time passing.
     #[inline(always)]
-    fn settle(&self, _seen: &Seen<'_, P>, _state: &mut Self::State) {}
+    fn settle(&self, seen: &Seen<'_, P>, state: &mut Self::State) {
+        self.keep_pose(seen, state);
+    }
+
+    /// Keeps in its memory what several calls at the same pose need, for example an angle. It or [`Self::settle`] is
+    /// called at every pose before all others but [`Self::bear`] and [`Self::advance`]; what it keeps is no part of the
+    /// memory's words.
+    #[inline(always)]
+    fn keep_pose(&self, _seen: &Seen<'_, P>, _state: &mut Self::State) {}
+
+    /// Whether its dampers do nothing at the pose of [`Self::keep_pose`], whatever the rates: damper passes skip it.
+    #[inline(always)]
+    fn is_idle(&self, _state: &Self::State) -> bool {
+        false
+    }
 
     /// The group of the model whose force [`Self::bear`] gives it.
     #[inline(always)]

@@ -123,7 +123,7 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
         shares: &Self::Shares,
         pass: &mut dyn DamperPass<P>,
     ) {
-        slice::sweep::<P, T>(self, reverse, states, shares, pass);
+        slice::sweep::<P, T>(self, [reverse, pass.is_evaluated()], states, shares, pass);
     }
     fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&dyn Row<P>)) {
         slice::look::<P, T>(self, row, states, look);

@@ -74,6 +74,7 @@ pub use bushing_curves::BushingCurves;
 pub use bushing_matrix::BushingMatrix;
 pub use bushing_maxwell::{BushingMaxwell, Relaxed};
 pub use contact::Held;
+pub use coordinate::TurnPose;
 pub(crate) use coordinate::travel;
 pub use coupling::{Coupling, Sum};
 pub use curve::Curve;

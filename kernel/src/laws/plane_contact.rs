@@ -63,6 +63,7 @@ impl<P: Geometry> Interaction<P> for PlaneContact<P> {
     type State = Held<P::Vector>;
     type Dampers = [(); 3];
     const SLIPS: bool = true;
+    const KEEPS: bool = true;
     const QUANTITIES: &'static [Quantity] = &[
         Quantity { name: "depth", unit: "m" },
         Quantity { name: "force", unit: "N" },
@@ -72,13 +73,15 @@ impl<P: Geometry> Interaction<P> for PlaneContact<P> {
     #[inline(always)]
     fn settle(&self, seen: &Seen<'_, P>, memory: &mut Held<P::Vector>) {
         if !self.surface().is_rough() {
-            return;
+            return self.keep_pose(seen, memory);
         }
         let touching = self.touching(seen, memory);
         if touching.stopped.beyond == P::Real::ZERO {
             *memory = Held::default();
+            memory.apart = true;
             return;
         }
+        memory.apart = false;
         // The height of the centre above the plane.
         let foot = -(touching.normal * touching.stopped.coordinate.value);
         let arm = seen.b.to_axes(foot);
@@ -86,6 +89,16 @@ impl<P: Geometry> Interaction<P> for PlaneContact<P> {
         if slides || !memory.touched || arm != memory.arm {
             *memory = touching.hold(seen, arm, give);
         }
+    }
+
+    #[inline(always)]
+    fn keep_pose(&self, seen: &Seen<'_, P>, memory: &mut Held<P::Vector>) {
+        memory.apart = self.touching(seen, memory).stopped.beyond == P::Real::ZERO;
+    }
+
+    #[inline(always)]
+    fn is_idle(&self, memory: &Held<P::Vector>) -> bool {
+        memory.apart
     }
 
     #[inline(always)]

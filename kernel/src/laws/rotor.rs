@@ -241,12 +241,6 @@ impl<P: Geometry, const RUBS: bool> Geared<P, RUBS> {
         self.coordinate.value + self.ahead(rotor)
     }
 
-    /// Advances the rotor by `h` \[s\].
-    #[inline(always)]
-    pub(super) fn advance(&self, h: P::Real, rotor: &mut Rotor<P::Real>) {
-        rotor.ahead = rotor.ahead + h * rotor.rate;
-    }
-
     /// Its outputs: torque of the gear, effort, torsion angle, rate of the rotor.
     pub(super) fn read(&self, quantity: usize, rotor: &Rotor<P::Real>) -> P::Real {
         match quantity {

@@ -39,6 +39,8 @@ impl<P: Geometry> Copy for Act<'_, P> {}
 pub trait DamperPass<P: Geometry> {
     /// \[s\] the duration of the dampers' action in it.
     fn time(&self) -> P::Real;
+    /// Whether the laws were evaluated at this pose, with the memories that they have.
+    fn is_evaluated(&self) -> bool;
     /// The ends of a law between two bodies in the pass.
     fn seen(&self, bodies: [BodyIndex; 2]) -> Option<Seen<'_, P>>;
     /// Applies the dampers of a law, each with its weight, also to the law's internal degree of freedom.

@@ -44,6 +44,8 @@ pub fn act<P: Geometry, T: Interaction<P>>(
         }
         if act.settle {
             law.settle(&seen, state);
+        } else {
+            law.keep_pose(&seen, state);
         }
         let Some(mut force_pair) = law.force_pair(&seen, state) else { return Err(row) };
         let mut branches = Branches::of(law, &seen, state);
@@ -73,11 +75,12 @@ pub fn act<P: Geometry, T: Interaction<P>>(
     Ok(())
 }
 
-/// Applies the dampers of the rows, in descending order with `reverse`.
+/// Applies the dampers of the rows, in descending order with `reverse`; `kept` where [`act`] was called at this pose with
+/// the same memories.
 #[inline(always)]
 pub fn sweep<P: Geometry, T: Interaction<P>>(
     rows: &[T],
-    reverse: bool,
+    [reverse, kept]: [bool; 2],
     states: &mut [T::State],
     shares: &[SharesOf<P, T>],
     pass: &mut dyn DamperPass<P>,
@@ -96,6 +99,14 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
             continue;
         }
         let bodies = law.bodies();
+        if T::KEEPS {
+            if !kept && let Some(seen) = pass.seen(bodies) {
+                law.keep_pose(&seen, state);
+            }
+            if law.is_idle(state) {
+                continue;
+            }
+        }
         let mut dampers = T::Dampers::of(Damper::<P>::idle());
         let (mut count, mut kick, time) = (0, P::Real::ZERO, pass.time());
         let branches;
@@ -192,6 +203,18 @@ struct Known<'s, T, S> {
     state: &'s S,
 }
 
+impl<T, S: Copy> Known<'_, T, S> {
+    /// Its memory with what it keeps of a pose.
+    fn at<P: Geometry>(&self, seen: &Seen<'_, P>) -> S
+    where
+        T: Interaction<P, State = S>,
+    {
+        let mut state = *self.state;
+        self.law.keep_pose(seen, &mut state);
+        state
+    }
+}
+
 impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
     fn name(&self) -> &'static str {
         T::NAME
@@ -203,13 +226,13 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
         T::Dampers::COUNT
     }
     fn force_pair(&self, seen: &Seen<'_, P>) -> Option<ForcePair<P::Space>> {
-        self.law.force_pair(seen, self.state)
+        self.law.force_pair(seen, &self.at(seen))
     }
     fn energy(&self, seen: &Seen<'_, P>) -> P::Real {
-        self.law.energy(seen, self.state)
+        self.law.energy(seen, &self.at(seen))
     }
     fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2] {
-        self.law.tangent(seen, self.state, visit)
+        self.law.tangent(seen, &self.at(seen), visit)
     }
     fn most_branches(&self) -> usize {
         T::BRANCHES
@@ -219,7 +242,7 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
     }
     fn each_branch(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Branch<P>)) {
         let mut count = 0;
-        self.law.branches(seen, self.state, &mut |branch| {
+        self.law.branches(seen, &self.at(seen), &mut |branch| {
             visit(count, &branch);
             count += 1;
         });
@@ -230,11 +253,11 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
         seen: &Seen<'_, P>,
         visit: Springs<'_, P>,
     ) -> [P::Real; 2] {
-        self.law.branch_tangent(branch, seen, self.state, visit)
+        self.law.branch_tangent(branch, seen, &self.at(seen), visit)
     }
     fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>)) {
         let mut count = 0;
-        self.law.dampers(seen, self.state, &mut |damper| {
+        self.law.dampers(seen, &self.at(seen), &mut |damper| {
             visit(count, &damper);
             count += 1;
         });
@@ -249,7 +272,7 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
         self.law.inner_square()
     }
     fn supply(&self, seen: &Seen<'_, P>) -> P::Real {
-        self.law.supply(seen, self.state)
+        self.law.supply(seen, &self.at(seen))
     }
     fn loss(&self) -> P::Real {
         self.law.loss(self.state)
@@ -261,7 +284,7 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
         T::QUANTITIES
     }
     fn read(&self, quantity: usize, seen: &Seen<'_, P>) -> P::Real {
-        self.law.read(quantity, seen, self.state)
+        self.law.read(quantity, seen, &self.at(seen))
     }
     fn visit(&self, visitor: &mut dyn WordVisitor) {
         self.law.visit(visitor);

@@ -120,9 +120,8 @@ macro_rules! drive {
             ];
 
             #[inline(always)]
-            fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut Rotor<P::Real>) {
-                let geared = self.geared(seen);
-                geared.advance(h, memory);
+            fn advance(&self, _: &Seen<'_, P>, h: P::Real, memory: &mut Rotor<P::Real>) {
+                memory.advance(h);
             }
 
             #[inline(always)]

@@ -96,6 +96,7 @@ impl<P: Geometry> Interaction<P> for SphereContact<P> {
     type State = Facing<P::Vector>;
     type Dampers = [(); 3];
     const SLIPS: bool = true;
+    const KEEPS: bool = true;
     const QUANTITIES: &'static [Quantity] = &[
         Quantity { name: "depth", unit: "m" },
         Quantity { name: "force", unit: "N" },
@@ -105,13 +106,15 @@ impl<P: Geometry> Interaction<P> for SphereContact<P> {
     #[inline(always)]
     fn settle(&self, seen: &Seen<'_, P>, memory: &mut Facing<P::Vector>) {
         if !self.surface().is_rough() {
-            return;
+            return self.keep_pose(seen, memory);
         }
         let Met { touching, line } = self.met(seen, memory);
         if touching.stopped.beyond == P::Real::ZERO {
             *memory = Facing::default();
+            memory.held.apart = true;
             return;
         }
+        memory.held.apart = false;
         // The point of contact divides the distance as the radii.
         let part = self.second_radius / (self.first_radius + self.second_radius);
         let arm = seen.b.to_axes(-(line * (touching.stopped.coordinate.value * part)));
@@ -125,6 +128,16 @@ impl<P: Geometry> Interaction<P> for SphereContact<P> {
         if slides || turned || !memory.held.touched || arm != memory.held.arm {
             *memory = Facing { held: touching.hold(seen, arm, give), normal };
         }
+    }
+
+    #[inline(always)]
+    fn keep_pose(&self, seen: &Seen<'_, P>, memory: &mut Facing<P::Vector>) {
+        memory.held.apart = self.met(seen, memory).touching.stopped.beyond == P::Real::ZERO;
+    }
+
+    #[inline(always)]
+    fn is_idle(&self, memory: &Facing<P::Vector>) -> bool {
+        memory.held.apart
     }
 
     #[inline(always)]

@@ -96,7 +96,7 @@ impl<P: Geometry, const SOFT: bool> Stopped<P, SOFT> {
 
     /// Whether it is within its range; always `false` for lanes.
     #[inline(always)]
-    fn is_free(&self) -> bool {
+    pub(super) fn is_free(&self) -> bool {
         P::Real::ONE_LANE && self.beyond == P::Real::ZERO
     }
 

@@ -172,6 +172,7 @@ impl<P: Geometry> Interaction<P> for WheelContact<P> {
     type State = Rolled<P::Vector>;
     type Dampers = [(); 3];
     const SLIPS: bool = true;
+    const KEEPS: bool = true;
     const QUANTITIES: &'static [Quantity] = &[
         Quantity { name: "depth", unit: "m" },
         Quantity { name: "force", unit: "N" },
@@ -185,14 +186,17 @@ impl<P: Geometry> Interaction<P> for WheelContact<P> {
     #[inline(always)]
     fn settle(&self, seen: &Seen<'_, P>, memory: &mut Rolled<P::Vector>) {
         if !self.surface().is_rough() {
-            return;
+            return self.keep_pose(seen, memory);
         }
         let met = self.met(seen, memory);
-        let (touching, held) = (&met.touching, memory.held);
+        let touching = &met.touching;
         if touching.stopped.beyond == P::Real::ZERO {
             *memory = Rolled::default();
+            memory.held.apart = true;
             return;
         }
+        memory.held.apart = false;
+        let held = memory.held;
         let (arm, along) = (seen.b.to_axes(met.foot), met.along());
         let moved = arm - held.arm;
         let least = self.radius * P::Real::from_f64(STANDING);
@@ -208,6 +212,16 @@ impl<P: Geometry> Interaction<P> for WheelContact<P> {
         if slides || moves {
             *memory = Rolled { held: touching.hold(seen, arm, give), secant };
         }
+    }
+
+    #[inline(always)]
+    fn keep_pose(&self, seen: &Seen<'_, P>, memory: &mut Rolled<P::Vector>) {
+        memory.held.apart = self.met(seen, memory).touching.stopped.beyond == P::Real::ZERO;
+    }
+
+    #[inline(always)]
+    fn is_idle(&self, memory: &Rolled<P::Vector>) -> bool {
+        memory.held.apart
     }
 
     #[inline(always)]

@@ -48,6 +48,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
                 turns: self.turns,
                 shares: self.shares,
                 kick: HalfKick { wrenches, diagonals, fall },
+                evaluated: self.cache.fresh,
             };
             damping::sweep::<P, T, _, REVERSE>(
                 &self.model,
@@ -71,7 +72,8 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         let h = P::Real::HALF * self.h;
         let places = Places { frames: &*self.frames, signals: &*self.signals };
         let kick = KeptKick { kicks: &*self.wrenches };
-        let sweep = Sweep { h, places, turns: &*self.turns, shares: self.shares, kick };
+        let evaluated = self.cache.fresh;
+        let sweep = Sweep { h, places, turns: &*self.turns, shares: self.shares, kick, evaluated };
         if fresh {
             let modes = (&mut *self.modes, self.cache.stops);
             damping::prepare::<P, T, _>(&self.model, &sweep, self.bodies, modes, REVERSE);
@@ -134,6 +136,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
                 turns: self.turns,
                 shares: self.shares,
                 kick: NoKick,
+                evaluated: self.cache.fresh,
             };
             damping::sweep::<P, T, _, REVERSE>(
                 &self.model,

@@ -139,7 +139,6 @@ fn facts_of(scene: &Scene, frames: &[<F64 as Geometry>::Frame], group: &Group) -
 }
 
 /// One body of a group, or the world.
-#[derive(Clone, Copy)]
 pub(super) struct End<'s> {
     pub(super) scene: &'s Scene,
     pub(super) frames: &'s [<F64 as Geometry>::Frame],

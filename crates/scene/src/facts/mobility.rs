@@ -190,7 +190,7 @@ fn closure(
         false => end,
     });
     Closure {
-        ends: ends.map(|end| end.body),
+        ends: ends.each_ref().map(|end| end.body),
         place,
         turn,
         points: [0, 1].map(|end| ends[end].to_local(at_w)),

@@ -65,6 +65,16 @@ pub fn hold<L: Law>(law: &L, poses: Poses) -> Result<(), String> {
     if met { Ok(()) } else { Err("the law has no effect at any pose: use another `reach`".into()) }
 }
 
+/// The memory of a law.
+type Memory<L> = <L as Interaction<F64>>::State;
+
+/// A memory with what it keeps of a pose.
+fn kept<L: Law>(law: &L, seen: &Seen<'_, F64>, memory: &Memory<L>) -> Memory<L> {
+    let mut memory = *memory;
+    law.keep_pose(seen, &mut memory);
+    memory
+}
+
 /// Checks the rules at a pose and, with its memory, at a later one; returns whether the law has an effect there.
 fn at<L: Law>(law: &L, [state, later]: [&State; 2], input: f64) -> Result<bool, String> {
     let frames = frames(state);
@@ -73,14 +83,14 @@ fn at<L: Law>(law: &L, [state, later]: [&State; 2], input: f64) -> Result<bool, 
     let Some(seen) = instant.seen(law.bodies()) else {
         return Err("the law's bodies are not 0 and 1".into());
     };
-    let mut memory = <L as Interaction<F64>>::State::default();
+    let mut memory = kept(law, &seen, &Memory::<L>::default());
     let unsettled = law.energy(&seen, &memory);
     law.settle(&seen, &mut memory);
     let lost = unsettled - law.energy(&seen, &memory);
     if lost.abs() > 1e-9 * unsettled.abs() && !<L as Interaction<F64>>::SLIPS {
         return Err(format!("settling loses {lost} J: such a law must set SLIPS"));
     }
-    let words = |memory: &<L as Interaction<F64>>::State| {
+    let words = |memory: &Memory<L>| {
         let mut list = Listed::default();
         memory.visit(&mut list);
         list.0
@@ -99,12 +109,13 @@ fn at<L: Law>(law: &L, [state, later]: [&State; 2], input: f64) -> Result<bool, 
 fn with<L: Law>(
     law: &L,
     (state, input): (&State, f64),
-    memory: &<L as Interaction<F64>>::State,
+    memory: &Memory<L>,
 ) -> Result<bool, String> {
     let frames = frames(state);
     let signals = [Signal { value: input, rate: 0.0 }];
     let instant = Instant { frames: &frames, bodies: state, signals: &signals };
     let Some(seen) = instant.seen(law.bodies()) else { return Ok(false) };
+    let memory = &kept(law, &seen, memory);
     let Some(force_pair) = law.force_pair(&seen, memory) else { return Ok(false) };
     let forces = generalised(&force_pair);
     let size = forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
@@ -149,13 +160,13 @@ fn momentum(state: &State, force_pair: &ForcePair<f64>) -> Result<(), String> {
 fn gradient<L: Law>(
     law: &L,
     (state, input): (&State, f64),
-    memory: &<L as Interaction<F64>>::State,
+    memory: &Memory<L>,
     forces: &Twelve,
     size: f64,
 ) -> Result<(), String> {
     let energy = |way: &Twelve, by: f64| {
         let moved = moved(state, way, by);
-        look(law, (&moved, input), |seen| law.energy(seen, memory))
+        look(law, (&moved, input), |seen| law.energy(seen, &kept(law, seen, memory)))
     };
     for freedom in 0..12 {
         let mut way = [0.0; 12];
@@ -184,13 +195,14 @@ fn gradient<L: Law>(
 fn tangent<L: Law>(
     law: &L,
     (state, input): (&State, f64),
-    memory: &<L as Interaction<F64>>::State,
+    memory: &Memory<L>,
     seen: &Seen<'_, F64>,
 ) -> Result<(), String> {
     let forces = |way: &Twelve, by: f64| {
         let moved = moved(state, way, by);
         look(law, (&moved, input), |seen| {
-            law.force_pair(seen, memory).map(|force_pair| generalised(&force_pair))
+            let memory = kept(law, seen, memory);
+            law.force_pair(seen, &memory).map(|force_pair| generalised(&force_pair))
         })
     };
     let mut random = Random(0x9e37_79b9_7f4a_7c15);

@@ -157,7 +157,9 @@ impl<P: Geometry, T: Interaction<P>> Rows<P> for Of<T> {
             let mut shares = laws::shares_of::<P, T>(&self.0[number]);
             shares.as_mut().copy_from_slice(known);
             let mut states = [state::<P, T>(words)];
-            laws::sweep::<P, T>(&self.0[number..=number], reverse, &mut states, &[shares], pass);
+            // The words of a memory keep nothing of a pose.
+            let order = [reverse, false];
+            laws::sweep::<P, T>(&self.0[number..=number], order, &mut states, &[shares], pass);
             if T::INNER {
                 states[0].visit(&mut Store(words.iter_mut()));
             }
