@@ -1,7 +1,7 @@
 //! Const models of the shipped scenes, and link arguments of the target's programs.
 //!
 //! `scenes/*.toml => SCENE.rs`, and `models.rs`: one module per scene and the macros `shipped`, `shipped_f32`,
-//! `charted`, `fixed`, `solved`, `solved_double`, `solved_fixed`, `lawful` and `varied` that list them.
+//! `charted`, `fixed`, `solved`, `solved_double`, `solved_fixed` and `varied` that list them.
 //! Link arguments stand here and not in a configuration, so that RUSTFLAGS in the environment
 //! cannot lose them; a host build gets none.
 
@@ -71,20 +71,6 @@ const SOLVED: &[(&str, &str, &[&str], &[&str])] = &[
     ("hexagon", "", &[], &["f32", "f64"]),
     ("double-wishbone", "", &[], &["f32", "f64"]),
     ("gripper", "", &[], &["f32"]),
-];
-/// Scenes of `tests/fuzz/corpus/scene` that have every law together; each ships in every precision.
-const LAWFUL: &[&str] = &[
-    "chains",
-    "contact",
-    "couplings",
-    "driven",
-    "drives",
-    "interactions",
-    "limits",
-    "mount",
-    "mounts",
-    "wheel",
-    "winch",
 ];
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
@@ -170,19 +156,6 @@ fn models() {
             "/// The scene `{name}` with the plan of a matrix.\npub mod {module} {{\n{source}}}\n"
         );
     }
-    let mut lawful = String::new();
-    for name in LAWFUL {
-        let file = PathBuf::from("../../tests/fuzz/corpus/scene").join(name).with_extension("toml");
-        let build = Build::scene(file).step("100us").precision("f32");
-        let source = source(&build.precision("f64").precision("fixed"));
-        let constant = export::constant_name(name);
-        lawful += &format!(
-            "            lawful_{name} \"{name}\" {constant}_STEP, {constant}_F32 {constant}_FIXED {constant}_F64;\n"
-        );
-        modules += &format!(
-            "/// The scene `{name}` of the tests, with laws.\npub mod lawful_{name} {{\n{source}}}\n"
-        );
-    }
     for name in CONTROLLED {
         let build = Build::scene(format!("../../scenes/{name}.toml")).without_tables();
         let (module, source) = (export::constant_name(name).to_lowercase(), source(&build));
@@ -198,7 +171,6 @@ fn models() {
         + &list("solved", "with the plan of a matrix", &solved[0])
         + &list("solved_double", "with the plan of a matrix in double precision", &solved[1])
         + &list("solved_fixed", "with the plan of a matrix in fixed point", &solved[2])
-        + &list("lawful", "with laws, in every precision", &lawful)
         + &list("varied", "of scenes with other values", &varied);
     write("models.rs", &source);
 }

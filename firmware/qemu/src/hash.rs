@@ -9,9 +9,7 @@ use core::str::FromStr;
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{Fixed, Geometry, Plant, Scheme, Status};
 
-use crate::models::{
-    Shipped, Visitor, for_each, for_each_further, for_each_lawful, for_each_solved,
-};
+use crate::models::{Shipped, Visitor, for_each, for_each_further, for_each_solved};
 use crate::say;
 
 /// When to stop.
@@ -71,12 +69,10 @@ pub fn run(limits: Limits, counter: &mut impl InstructionCounter) -> bool {
     let mut all = Weights { sum: 0, which: limits.which };
     for_each(&mut all);
     for_each_further(&mut all);
-    for_each_lawful(&mut all);
     for_each_solved(&mut all);
     let mut hashing = Hashing { limits, counter, waiting: all.sum, well: true };
     // Cheap ones first: what they leave of their shares goes to the others.
     for_each_further(&mut hashing);
-    for_each_lawful(&mut hashing);
     for_each_solved(&mut hashing);
     for_each(&mut hashing);
     hashing.well

@@ -3,7 +3,7 @@
 //! The build script makes them from the scene files that it lists, and the macros
 //! [`shipped`](crate::shipped), [`shipped_f32`](crate::shipped_f32), [`charted`](crate::charted),
 //! [`fixed`](crate::fixed), [`solved`](crate::solved), [`solved_double`](crate::solved_double),
-//! [`solved_fixed`](crate::solved_fixed), [`lawful`](crate::lawful) and [`varied`](crate::varied) from the same lists.
+//! [`solved_fixed`](crate::solved_fixed) and [`varied`](crate::varied) from the same lists.
 //! [`for_each`] shows pairs of model and scheme to a visitor, which is generic as the step is.
 
 use dbd_kernel::model::ModelOwner;
@@ -148,20 +148,6 @@ pub fn for_each_further(visitor: &mut impl Visitor) {
         double_wishbone::DOUBLE_WISHBONE_STEP,
     );
     joint_wise(visitor, "gripper", &gripper::GRIPPER_F32, gripper::GRIPPER_STEP);
-}
-
-/// Shows scenes that have every law together, in every precision: those in double precision for few steps.
-pub fn for_each_lawful(visitor: &mut impl Visitor) {
-    macro_rules! visit {
-        ($($module:ident $scene:literal $step:ident, $f32:ident $fixed:ident $f64:ident;)*) => {
-            show! { visitor:
-                $($scene $module::$f32 $step SHORT, Leapfrog;)*
-                $($scene $module::$fixed $step SHORT, Leapfrog;)*
-                $($scene $module::$f64 $step 100, Leapfrog;)*
-            }
-        };
-    }
-    lawful!(visit);
 }
 
 /// Shows the models that have the plan of a matrix, with the scheme that takes it: in single precision, those

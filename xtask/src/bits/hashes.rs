@@ -26,8 +26,6 @@ pub const GOLDEN: &str = "tests/bits/hashes.csv";
 const JOINT_WISE: &str = "tests/bits/joint-wise.csv";
 /// The same of fixed point.
 pub const FIXED: &str = "tests/bits/fixed.csv";
-/// The same of scenes with laws.
-const LAWS: &str = "tests/bits/laws.csv";
 
 /// Runs the program everywhere and compares; at length also many more steps in fixed point.
 ///
@@ -64,7 +62,7 @@ fn compare_of(toolchain: &Toolchain, host: &Host, long: bool, limits: &[&str]) -
         match checked.get(key) {
             Some(found) if found != hash => {
                 bail!(
-                    "{} after {} steps: {found}, but {GOLDEN}, {FIXED} or {LAWS} has {hash}",
+                    "{} after {} steps: {found}, but {GOLDEN} or {FIXED} has {hash}",
                     key.0,
                     key.1
                 )
@@ -93,7 +91,7 @@ pub fn golden() -> Result<Hashes> {
         let text = std::fs::read_to_string(root().join(file));
         text.with_context(|| format!("cannot read {file}"))
     };
-    let tables = [read(GOLDEN)?, read(JOINT_WISE)?, read(FIXED)?, read(LAWS)?];
+    let tables = [read(GOLDEN)?, read(JOINT_WISE)?, read(FIXED)?];
     let mut golden = Hashes::new();
     for line in tables.iter().flat_map(|text| text.lines().skip(1)) {
         let columns: Vec<&str> = line.split(',').collect();

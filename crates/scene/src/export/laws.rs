@@ -136,3 +136,18 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
         self.push(field, &format!("[{}]", terms.each_ref().map(term).join(", ")));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::tuple;
+
+    /// Eight tables are one tuple, of nine the last two are a tuple in the eighth place.
+    #[test]
+    fn more_than_eight_laws_are_nested() {
+        let tables = |count: usize| vec!["t,".to_owned(); count];
+        assert_eq!(tuple(&[]), "()");
+        assert_eq!(tuple(&tables(8)), "(t, t, t, t, t, t, t, t,)");
+        assert_eq!(tuple(&tables(9)), "(t, t, t, t, t, t, t, (t, t,))");
+        assert!(tuple(&tables(16)).ends_with("(t, t, t, t, t, t, t, (t, t,)))"));
+    }
+}
