@@ -20,7 +20,7 @@ pub(crate) fn drive<P: Geometry, T: Terms<P>>(
     signals: &[Signal<P::Real>],
     bodies: &mut [BodyState<P>],
 ) {
-    if T::INPUTS {
+    if has_motions(model) {
         set(model, |row| signals.get(row).map_or(P::Real::ZERO, |signal| signal.value), bodies);
     }
 }
@@ -34,7 +34,7 @@ pub(crate) fn drive_midway<P: Geometry, T: Terms<P>>(
     signals: &[Signal<P::Real>],
     bodies: &mut [BodyState<P>],
 ) {
-    if !T::INPUTS {
+    if !has_motions(model) {
         return;
     }
     let at = StageTime { step, part: P::Real::HALF, h };
@@ -54,6 +54,15 @@ pub(crate) fn drive_midway<P: Geometry, T: Terms<P>>(
         signal.value
     };
     set(model, value, bodies);
+}
+
+/// Whether any input moves a body: models of all terms mostly have none.
+#[inline(always)]
+fn has_motions<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>) -> bool {
+    let moves = |kind: &InputKind<P>| {
+        matches!(kind, InputKind::Velocity { .. } | InputKind::AngularVelocity { .. })
+    };
+    T::INPUTS && model.inputs.iter().any(|input| moves(&input.kind))
 }
 
 #[inline(always)]
