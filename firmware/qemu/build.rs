@@ -72,6 +72,23 @@ const SOLVED: &[(&str, &str, &[&str], &[&str])] = &[
     ("double-wishbone", "", &[], &["f32", "f64"]),
     ("gripper", "", &[], &["f32"]),
 ];
+/// Scenes of `tests/fuzz/corpus/scene` that have every law together, in every precision.
+const LAWFUL: &[&str] = &[
+    "chains",
+    "contact",
+    "couplings",
+    "driven",
+    "drives",
+    "interactions",
+    "limits",
+    "mount",
+    "mounts",
+    "wheel",
+    "winch",
+];
+/// Scenes of `docs/examples` with laws in the plane, in single precision, with their steps.
+const PLANAR: &[(&str, &str)] =
+    &[("crane", "100us"), ("grasp", "100us"), ("quarter-car", "200us"), ("wiper", "100us")];
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
 
@@ -82,6 +99,9 @@ fn main() {
     models();
     if std::env::var_os("CARGO_FEATURE_ELEMENTS").is_some() {
         elements();
+    }
+    if std::env::var_os("CARGO_FEATURE_LAWS").is_some() {
+        laws();
     }
     if std::env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("none") {
         link_arguments(root);
@@ -197,6 +217,36 @@ fn elements() {
             &format!("            {module} \"{name}\" ELEMENTS_STEP, ELEMENTS_F32: ElementsF32;\n");
     }
     write("elements.rs", &(modules + &list("elements", "of an element", &lines)));
+}
+
+/// Models of scenes with laws; the macro `lawful`.
+fn laws() {
+    let (mut modules, mut lines) = (String::new(), String::new());
+    let mut add = |name: &str, build: &Build, precisions: &[&str]| {
+        let module = export::constant_name(name).to_lowercase();
+        let constant = export::constant_name(build.file_name().trim_end_matches(".rs"));
+        for precision in precisions {
+            // Double precision is dear there.
+            let steps = if *precision == "f64" { 100 } else { 1_000 };
+            let precision = precision.to_uppercase();
+            lines += &format!(
+                "            {module} \"{name}\" {constant}_STEP {steps}, {constant}_{precision};\n"
+            );
+        }
+        let source = source(build);
+        modules += &format!("/// The scene `{name}`.\npub mod {module} {{\n{source}}}\n");
+    };
+    for name in LAWFUL {
+        let file = PathBuf::from("../../tests/fuzz/corpus/scene").join(name).with_extension("toml");
+        let build = Build::scene(file).step("100us").precision("f32");
+        add(name, &build.precision("fixed").precision("f64"), &["f32", "fixed", "f64"]);
+    }
+    for (name, step) in PLANAR {
+        let file = format!("../../docs/examples/{name}/{name}.toml");
+        let build = Build::scene(file).step(step).set("planar=true").precision("f32");
+        add(&format!("{name}-planar"), &build, &["f32"]);
+    }
+    write("laws.rs", &(modules + &list("lawful", "with laws", &lines)));
 }
 
 /// A macro that calls another with all models of a list.

@@ -78,6 +78,14 @@ pub fn run(limits: Limits, counter: &mut impl InstructionCounter) -> bool {
     hashing.well
 }
 
+/// Prints the lines of models that are shown, without a limit of instructions; `false` where one did not step.
+pub fn run_to_the_end(show: impl FnOnce(&mut Hashing<'_, Uncounted>)) -> bool {
+    let limits = Limits { steps: u64::MAX, instructions: u64::MAX, which: Which::All };
+    let mut hashing = Hashing { limits, counter: &mut Uncounted, waiting: 1, well: true };
+    show(&mut hashing);
+    hashing.well
+}
+
 /// Adds up the combinations' weights.
 struct Weights {
     sum: u64,
@@ -100,7 +108,9 @@ fn weight<M, S: Scheme>(shipped: &Shipped<M, S>) -> u64 {
     }
 }
 
-struct Hashing<'c, C> {
+/// Steps what it is shown and prints the lines.
+#[derive(Debug)]
+pub struct Hashing<'c, C> {
     limits: Limits,
     counter: &'c mut C,
     /// Weight of the combinations not yet begun.

@@ -10,7 +10,7 @@
 //! - [`models`], [`alone`]: shipped models, const and in flash; a model that shares no code with another.
 //! - [`console`]: arguments, lines and files of a program.
 //! - [`root`], [`sensors`], [`trajectory`], [`relay`]: square roots, sensors on a script, a recorded run, a run in two halves.
-//! - [`mod@hash`]: hashes of shipped models.
+//! - [`mod@hash`], `laws`: hashes of shipped models, and of scenes with laws.
 //! - [`board`]: the hardware.
 //! - [`chart`], [`sample`], `elements`: which models and schemes are counted.
 //! - `cost`, `guards`: instructions and memory of a step, on the target only.
@@ -31,6 +31,8 @@ pub mod controllers;
 pub mod elements;
 pub mod hash;
 pub mod hil;
+#[cfg(feature = "laws")]
+pub mod laws;
 pub mod relay;
 pub mod root;
 pub mod sample;

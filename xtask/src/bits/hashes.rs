@@ -27,6 +27,9 @@ const JOINT_WISE: &str = "tests/bits/joint-wise.csv";
 /// The same of fixed point.
 pub const FIXED: &str = "tests/bits/fixed.csv";
 
+/// The same of scenes with laws.
+const LAWS: &str = "tests/bits/laws.csv";
+
 /// Runs the program everywhere and compares; at length also many more steps in fixed point.
 ///
 /// # Errors
@@ -82,23 +85,53 @@ fn compare_of(toolchain: &Toolchain, host: &Host, long: bool, limits: &[&str]) -
     Ok(())
 }
 
+/// Steps scenes that have every law together on the target: the same bits as in the table of the host's tests.
+///
+/// # Errors
+/// Where a hash differs or is missing, or the program fails.
+pub fn compare_laws(toolchain: &Toolchain) -> Result<()> {
+    let target = parse(&firmware::execute(toolchain, firmware::LAWS, false, &[])?);
+    let golden = read(&[LAWS])?;
+    for ((combination, steps), hash) in &golden {
+        let key = (combination.clone(), *steps);
+        match target.get(&key) {
+            Some(found) if found != hash => {
+                bail!("{combination} after {steps} steps: {found}, but {LAWS} has {hash}")
+            }
+            // The row of each scene that the target has in double precision.
+            None if *steps == 100 => bail!("the target did not step {combination}"),
+            _ => {}
+        }
+    }
+    let last: BTreeMap<_, _> = target.keys().map(|(name, steps)| (name, steps)).collect();
+    for (name, steps) in &last {
+        if !golden.contains_key(&((*name).clone(), **steps)) {
+            bail!("{LAWS} has no hash of {name} after {steps} steps");
+        }
+    }
+    println!("\n{} combinations have on the target the hashes of {LAWS}", last.len());
+    Ok(())
+}
+
 /// The golden tables.
 ///
 /// # Errors
 /// Where it cannot be read.
 pub fn golden() -> Result<Hashes> {
-    let read = |file: &str| {
-        let text = std::fs::read_to_string(root().join(file));
-        text.with_context(|| format!("cannot read {file}"))
-    };
-    let tables = [read(GOLDEN)?, read(JOINT_WISE)?, read(FIXED)?];
+    read(&[GOLDEN, JOINT_WISE, FIXED])
+}
+
+fn read(tables: &[&str]) -> Result<Hashes> {
     let mut golden = Hashes::new();
-    for line in tables.iter().flat_map(|text| text.lines().skip(1)) {
-        let columns: Vec<&str> = line.split(',').collect();
-        if let [scene, scheme, precision, _step, steps, hash] = columns[..]
-            && let Ok(steps) = steps.parse()
-        {
-            golden.insert((format!("{scene} {scheme} {precision}"), steps), hash.to_owned());
+    for file in tables {
+        let text = std::fs::read_to_string(root().join(file));
+        for line in text.with_context(|| format!("cannot read {file}"))?.lines().skip(1) {
+            let columns: Vec<&str> = line.split(',').collect();
+            if let [scene, scheme, precision, _step, steps, hash] = columns[..]
+                && let Ok(steps) = steps.parse()
+            {
+                golden.insert((format!("{scene} {scheme} {precision}"), steps), hash.to_owned());
+            }
         }
     }
     Ok(golden)

@@ -11,6 +11,8 @@ use crate::command::{output, run as run_command};
 
 /// The profile of images.
 pub const PROFILE: &str = "firmware";
+/// The profile of the image [`LAWS`].
+const BITS: &str = "bits";
 /// Real time for a program without `--long`: ten times what 3·10⁹ instructions take.
 const TIME_LIMIT: Duration = Duration::from_secs(600);
 /// The image of several programs: its first argument names one.
@@ -19,6 +21,8 @@ pub const SHARED: &str = "programs";
 pub const PLANT: &str = "plant";
 /// The image with one end of a line.
 const HIL: &str = "hil";
+/// The image that steps scenes with laws.
+pub const LAWS: &str = "laws";
 /// Where time matters: 8 ns an instruction, 125 million in a second, about what a part of 168 MHz
 /// does; asleep it passes at once to what is due next, whatever the host does. The last of several such
 /// options holds.
@@ -29,7 +33,7 @@ const AUDIT: &str = "audit";
 pub const LIBRARIES: &str = "core,alloc";
 
 /// Programs that can be run, each with the image that holds it.
-const PROGRAMS: [(&str, &str); 15] = [
+const PROGRAMS: [(&str, &str); 16] = [
     ("board", SHARED),
     ("cost", "cost"),
     ("cost-double", "cost-double"),
@@ -39,6 +43,7 @@ const PROGRAMS: [(&str, &str); 15] = [
     ("guards", "guards"),
     ("hash", SHARED),
     (HIL, HIL),
+    (LAWS, LAWS),
     ("plant", PLANT),
     ("relay", SHARED),
     ("root", SHARED),
@@ -81,7 +86,7 @@ pub fn build_audit(toolchain: &Toolchain) -> Result<PathBuf> {
 /// Links the images that the tests take, beside other work: silent, and what fails fails again where the image
 /// is wanted. A link takes one core for minutes.
 pub fn link_ahead(toolchain: &Toolchain) {
-    for bin in [SHARED, AUDIT, PLANT, HIL] {
+    for bin in [SHARED, AUDIT, PLANT, HIL, LAWS] {
         let mut command = toolchain.cargo("build", LIBRARIES);
         let _ = output(command.args(selection(bin)).args(features(bin)));
     }
@@ -107,7 +112,7 @@ pub fn execute(
 pub fn build(toolchain: &Toolchain, name: &str) -> Result<PathBuf> {
     let bin = image_of(name)?;
     run_command(toolchain.cargo("build", LIBRARIES).args(selection(bin)).args(features(bin)))?;
-    Ok(toolchain.images(PROFILE).join(bin))
+    Ok(toolchain.images(profile(bin)).join(bin))
 }
 
 /// Builds several images of one feature side by side.
@@ -151,7 +156,11 @@ pub fn execute_with(
 }
 
 fn selection(bin: &str) -> [&str; 6] {
-    ["--package", "firmware", "--profile", PROFILE, "--bin", bin]
+    ["--package", "firmware", "--profile", profile(bin), "--bin", bin]
+}
+
+fn profile(bin: &str) -> &'static str {
+    if bin == LAWS { BITS } else { PROFILE }
 }
 
 /// Images that are dear to build have a feature of their name's first word.

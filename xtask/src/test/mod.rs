@@ -268,6 +268,7 @@ fn on_target(
     steps.step("a run recorded on the target", || trajectory::compare(toolchain));
     let host = || host.context("the host's programs were not built");
     steps.step("same bits on host and target", || hashes::compare(toolchain, host()?, long));
+    steps.step("the golden bits of laws on the target", || hashes::compare_laws(toolchain));
     steps.step("runs that change machines", || relay::compare(toolchain, host()?));
     let closed = "controllers with their plants, ticked on the target";
     steps.step(closed, || closed_loop::step(toolchain, host()?, long));
