@@ -86,6 +86,8 @@ const LAWFUL: &[&str] = &[
     "wheel",
     "winch",
 ];
+/// Elements that do not exist in the plane, or not with these values.
+const SPATIAL: &[&str] = &["bushing-matrix"];
 /// Scenes of `docs/examples` with laws in the plane, in single precision, with their steps.
 const PLANAR: &[(&str, &str)] =
     &[("crane", "100us"), ("grasp", "100us"), ("quarter-car", "200us"), ("wiper", "100us")];
@@ -195,7 +197,8 @@ fn models() {
     write("models.rs", &source);
 }
 
-/// Models of the plain scene of `elements/`, and of it with each element, in single precision; the macro `elements`.
+/// Models of the plain scene of `elements/`, and of it with each element, in space and in the plane, in single precision;
+/// the macro `elements`.
 fn elements() {
     println!("cargo:rerun-if-changed=elements");
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
@@ -210,11 +213,16 @@ fn elements() {
         let name = file.file_stem().and_then(|stem| stem.to_str()).expect("a name");
         let more = if name == "plain" { String::new() } else { read(file) };
         write(&format!("{name}.toml"), &(plain.clone() + &more));
-        let source = source(&Build::scene(out.join(name).with_extension("toml")).precision("f32"));
-        let module = export::constant_name(name).to_lowercase();
-        modules += &format!("/// The scene with `{name}`.\npub mod {module} {{\n{source}}}\n");
-        lines +=
-            &format!("            {module} \"{name}\" ELEMENTS_STEP, ELEMENTS_F32: ElementsF32;\n");
+        let build = Build::scene(out.join(name).with_extension("toml")).precision("f32");
+        let planar = (!SPATIAL.contains(&name))
+            .then(|| (format!("{name}-planar"), build.clone().set("planar=true")));
+        for (name, build) in [(name.to_owned(), build)].into_iter().chain(planar) {
+            let (module, source) = (export::constant_name(&name).to_lowercase(), source(&build));
+            modules += &format!("/// The scene with `{name}`.\npub mod {module} {{\n{source}}}\n");
+            lines += &format!(
+                "            {module} \"{name}\" ELEMENTS_STEP, ELEMENTS_F32: ElementsF32;\n"
+            );
+        }
     }
     write("elements.rs", &(modules + &list("elements", "of an element", &lines)));
 }

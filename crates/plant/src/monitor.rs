@@ -332,7 +332,7 @@ pub fn conserves_energy(scene: &Scene) -> bool {
     undriven(model) && model.dampers.iter().all(|c| c.abs() == 0.0) && !laws_dissipate(scene)
 }
 
-/// Whether a law of the scene has a damper, whatever its coefficient, or a memory that may lose energy.
+/// Whether a law of the scene has a damper that may act, or a memory that may lose energy.
 #[must_use]
 pub fn laws_dissipate(scene: &Scene) -> bool {
     let laws = &scene.model.laws;

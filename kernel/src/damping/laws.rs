@@ -11,8 +11,8 @@ use crate::damping::pass::Sweep;
 use crate::elements::share::Share;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::laws::{Body, Branch, Damper, DamperPass, End, Inner, Instant, Laws, Seen};
-use crate::model::{ModelRef, SharesIn, StatesIn, Terms};
+use crate::laws::{Branch, Damper, DamperPass, End, Inner, Instant, Laws, Seen};
+use crate::model::{LawsIn, ModelRef, SharesIn, StatesIn, Terms};
 use crate::real::Real as _;
 use crate::space::Linear as _;
 
@@ -63,12 +63,7 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
 
     fn seen(&self, [a, b]: [BodyIndex; 2]) -> Option<Seen<'_, P>> {
         let places = self.sweep.places;
-        let end = |index: BodyIndex| {
-            let row = index.row();
-            let (velocity, spin) = self.moving.velocities(row)?;
-            let (frame, state) = (places.frames.get(row)?, self.moving.states.get(row)?);
-            Some(Body { frame, orientation: &state.orientation, velocity, spin })
-        };
+        let end = |index: BodyIndex| self.moving.body(index.row(), places.frames.get(index.row())?);
         let (a, b) = (End { body: end(a) }, End { body: Some(end(b)?) });
         let (frames, bodies) = (places.frames, &*self.moving.states);
         Some(Seen { a, b, at: Instant { frames, bodies, signals: places.signals } })
@@ -77,32 +72,16 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
     fn act(
         &mut self,
         bodies: [BodyIndex; 2],
+        turns: bool,
         dampers: &[Damper<P>],
         shares: &[Share<P::Real>],
-        mut inner: Option<&mut Inner<P::Real>>,
+        inner: Option<&mut Inner<P::Real>>,
     ) {
-        let idle = |damper: &Damper<P>| damper.coefficient == P::Real::ZERO;
-        if P::Real::ONE_LANE && dampers.iter().all(idle) {
-            return;
+        if <LawsIn<P, T> as Laws<P>>::TURNS && (turns || !<LawsIn<P, T> as Laws<P>>::PUSHES) {
+            self.act_on::<true>(bodies, dampers, shares, inner);
+        } else {
+            self.act_on::<false>(bodies, dampers, shares, inner);
         }
-        let (model, sweep) = (self.model, self.sweep);
-        let rows = bodies.map(BodyIndex::row);
-        let mut pair = Pair::new(model, rows, self.moving, P::Vector::ZERO, &sweep.kick);
-        let count = dampers.len();
-        for i in 0..count {
-            let i = if REVERSE { count - 1 - i } else { i };
-            let (Some(damper), Some(share)) = (dampers.get(i), shares.get(i)) else { break };
-            // Its impulse is 0.
-            if P::Real::ONE_LANE && idle(damper) {
-                continue;
-            }
-            let bounds = damper.bounds().map(|bound| bound * sweep.h);
-            let known = sweep.damper::<REVERSE>(damper.coefficient, share);
-            let limits = (damper.rate, bounds, damper.brakes());
-            let inner = inner.as_deref_mut().map(|inner| (damper.inner(), inner));
-            pair.damp_within::<P, K>(&damper.direction, known, limits, inner);
-        }
-        pair.store::<P>(self.moving);
     }
 
     fn act_along(
@@ -123,5 +102,40 @@ impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> DamperPass<P>
         let known = self.sweep.damper::<REVERSE>(damper.coefficient, share);
         let limits = (damper.rate, bounds, damper.brakes());
         far.damp(self.model, &self.sweep.kick, (known, limits), self.moving);
+    }
+}
+
+impl<P: Geometry, T: Terms<P>, K: Kick<P>, const REVERSE: bool> Pass<'_, '_, '_, P, T, K, REVERSE> {
+    #[inline(always)]
+    fn act_on<const TURNS: bool>(
+        &mut self,
+        bodies: [BodyIndex; 2],
+        dampers: &[Damper<P>],
+        shares: &[Share<P::Real>],
+        mut inner: Option<&mut Inner<P::Real>>,
+    ) {
+        let idle = |damper: &Damper<P>| damper.coefficient == P::Real::ZERO;
+        if P::Real::ONE_LANE && dampers.iter().all(idle) {
+            return;
+        }
+        let (model, sweep) = (self.model, self.sweep);
+        let rows = bodies.map(BodyIndex::row);
+        let ground_rate = P::Vector::ZERO;
+        let mut pair = Pair::<_, TURNS>::new(model, rows, self.moving, ground_rate, &sweep.kick);
+        let count = dampers.len();
+        for i in 0..count {
+            let i = if REVERSE { count - 1 - i } else { i };
+            let (Some(damper), Some(share)) = (dampers.get(i), shares.get(i)) else { break };
+            // Its impulse is 0.
+            if P::Real::ONE_LANE && idle(damper) {
+                continue;
+            }
+            let bounds = damper.bounds().map(|bound| bound * sweep.h);
+            let known = sweep.damper::<REVERSE>(damper.coefficient, share);
+            let limits = (damper.rate, bounds, damper.brakes());
+            let inner = inner.as_deref_mut().map(|inner| (damper.inner(), inner));
+            pair.damp_within::<P, K>(&damper.direction, known, limits, inner);
+        }
+        pair.store::<P>(self.moving);
     }
 }

@@ -7,6 +7,7 @@
 use crate::body::BodyState;
 use crate::damping::kick::Kick;
 use crate::geometry::Geometry;
+use crate::laws::Body;
 use crate::pass_sum::PassSum;
 
 /// The bodies' states and the sums of the pass.
@@ -31,6 +32,14 @@ impl<'s, P: Geometry> Moving<'s, P> {
             }
         }
         Self { states, sums }
+    }
+
+    /// The body in a row for a law, with its frame; `None` for the ground.
+    #[inline(always)]
+    pub(super) fn body<'b>(&'b self, row: usize, frame: &'b P::Frame) -> Option<Body<'b, P>> {
+        let state = self.states.get(row)?;
+        let sum = if P::PassSum::APART { self.sums.get(row)?.sum() } else { None };
+        Some(Body { frame, state, sum })
     }
 
     /// \[m/s\] (world) and \[rad/s\] (body axes) of the body in a row; `None` for the ground.

@@ -170,8 +170,7 @@ macro_rules! actuator {
                 seen: &Seen<'_, P>,
                 actuated: &Actuated<P::Real>,
             ) -> Option<ForcePair<P::Space>> {
-                let direction = self.coordinate(seen)?.direction(seen);
-                Some(seen.pull(&direction, -actuated.effort))
+                Some(self.coordinate(seen)?.pull(seen, -actuated.effort))
             }
 
             fn energy(&self, _: &Seen<'_, P>, _: &Actuated<P::Real>) -> P::Real {

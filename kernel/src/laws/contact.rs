@@ -216,7 +216,7 @@ impl<P: Geometry> Touching<P> {
         }
         let give = self.give(seen);
         let tension = self.surface.shear_stiffness() * give.value;
-        normal.with(&seen.pull(&give.direction(seen), tension))
+        normal.with(&give.pull(seen, tension))
     }
 
     /// \[J\]
@@ -266,13 +266,13 @@ impl<P: Geometry> Touching<P> {
         slip - self.normal * self.normal.dot(slip)
     }
 
-    /// The damper of the deflection, which grows at a velocity \[m/s\].
+    /// The damper of the deflection, which grows at a velocity \[m/s\]; `pressed` is the normal force \[N\].
     #[inline(always)]
-    fn shear_damper(&self, seen: &Seen<'_, P>, growing: P::Vector) -> Damper<P> {
+    fn shear_damper(&self, seen: &Seen<'_, P>, growing: P::Vector, pressed: P::Real) -> Damper<P> {
         let along = growing * inverse_of_rate(growing.dot(growing).sqrt());
         // The spring and damper forces together stay within the cone.
         let force = seen.a.to_world(self.give) * self.surface.shear_stiffness();
-        let (limit, same) = (self.surface.friction * self.pressed(seen), force.dot(along));
+        let (limit, same) = (self.surface.friction * pressed, force.dot(along));
         let square = same * same + limit * limit - force.dot(force);
         let square = P::Real::pick(square.less_than(P::Real::ZERO), P::Real::ZERO, square);
         let damper = Damper::new(self.surface.damping, seen.along(along, self.arms(seen)));
@@ -286,12 +286,17 @@ impl<P: Geometry> Touching<P> {
         self.normal.cross(spin.cross(self.normal))
     }
 
-    /// The resistance to a rolling \[rad/s\].
+    /// The resistance to a rolling \[rad/s\]; `pressed` is the normal force \[N\].
     #[inline(always)]
-    fn rolling_damper(&self, seen: &Seen<'_, P>, rolling: P::Moment) -> Damper<P> {
+    fn rolling_damper(
+        &self,
+        seen: &Seen<'_, P>,
+        rolling: P::Moment,
+        pressed: P::Real,
+    ) -> Damper<P> {
         let rate = rolling.dot(rolling).sqrt();
         let direction = seen.about(rolling * inverse_of_rate(rate));
-        drag(direction, rate, self.surface.rolling * self.pressed(seen))
+        drag(direction, rate, self.surface.rolling * pressed)
     }
 
     /// Visits its dampers: along the normal, of the deflection, of the rolling. A wheel states the part of its slip
@@ -305,19 +310,23 @@ impl<P: Geometry> Touching<P> {
     ) {
         let (surface, zero) = (&self.surface, P::Real::ZERO);
         let is_free = P::Real::ONE_LANE && self.stopped.beyond == zero;
+        let (shears, rolls) = (surface.shears() && !is_free, surface.rolling != zero && !is_free);
+        let pressed = if shears || rolls { self.pressed(seen) } else { zero };
         let dampers = [
             (surface.dissipation != zero).then(|| self.stopped.damper(seen, surface.dissipation)),
-            (surface.shears() && !is_free).then(|| {
+            shears.then(|| {
                 let slip = self.slip(seen);
-                let Some((creep, _)) = wheel else { return self.shear_damper(seen, slip) };
-                let damper = self.shear_damper(seen, slip - creep);
+                let Some((creep, _)) = wheel else {
+                    return self.shear_damper(seen, slip, pressed);
+                };
+                let damper = self.shear_damper(seen, slip - creep, pressed);
                 let towards = creep.dot(damper.direction.along);
                 damper.towards(towards).braking()
             }),
-            (surface.rolling != zero && !is_free).then(|| {
+            rolls.then(|| {
                 let rolling = self.rolling(seen);
-                let Some((_, axle)) = wheel else { return self.rolling_damper(seen, rolling) };
-                self.rolling_damper(seen, axle * axle.dot(rolling))
+                let rolling = wheel.map_or(rolling, |(_, axle)| axle * axle.dot(rolling));
+                self.rolling_damper(seen, rolling, pressed)
             }),
         ];
         dampers.into_iter().for_each(|damper| visit(damper.unwrap_or_else(Damper::idle)));

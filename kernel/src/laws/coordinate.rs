@@ -3,7 +3,7 @@
 //! `(state of the ends) => value, direction; force => its effect on rotations of the bodies`. The direction is the
 //! gradient of the value: its rate is the rate of the value.
 
-use crate::force_pair::Direction;
+use crate::force_pair::{Direction, ForcePair};
 use crate::geometry::Geometry;
 use crate::laws::end::Seen;
 use crate::laws::hinge::{Hinge, Turns};
@@ -149,6 +149,17 @@ impl<P: Geometry> Coordinate<P> {
     #[inline(always)]
     pub(super) fn between(way: P::Vector, arms: [P::Vector; 2]) -> Self {
         Self { value: way.dot(way).sqrt(), way: CoordinateKind::Distance(way, arms) }
+    }
+
+    /// The record of a tension \[N, N·m\] along it: a positive one pulls B against the gradient.
+    #[inline(always)]
+    pub(super) fn pull(&self, seen: &Seen<'_, P>, tension: P::Real) -> ForcePair<P::Space> {
+        let CoordinateKind::Turn(gradient) = self.way else {
+            return seen.pull(&self.direction(seen), tension);
+        };
+        let torque_b = gradient * tension;
+        let torque_a = if seen.a.is_ground() { P::Moment::ZERO } else { torque_b };
+        ForcePair { force: P::Vector::ZERO, torque_a, torque_b }
     }
 
     /// Its gradient.

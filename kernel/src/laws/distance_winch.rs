@@ -90,7 +90,7 @@ impl<P: Geometry> Interaction<P> for DistanceWinch<P> {
         let Wound { coordinate, tension, .. } = self.wound(seen);
         // Coincident points have no direction for a force.
         let lost = coordinate.value == P::Real::ZERO && tension != P::Real::ZERO;
-        (!lost).then(|| seen.pull(&coordinate.direction(seen), tension))
+        (!lost).then(|| coordinate.pull(seen, tension))
     }
 
     fn energy(&self, seen: &Seen<'_, P>, _: &NoStorage) -> P::Real {

@@ -1,7 +1,6 @@
 //! The state of a law's two bodies.
 //!
-//! `(frames, orientations, velocities) => points, lever arms, rates, rotations`. Each is computed on demand: a law
-//! without velocities has no code for them.
+//! `(frames, orientations, velocities) => points, lever arms, rates, rotations`. Each is computed on demand.
 
 use crate::attitude::Attitude as _;
 use crate::body::BodyState;
@@ -9,6 +8,7 @@ use crate::force_pair::Direction;
 use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::index::{BodyIndex, InputIndex};
+use crate::pass_sum::Sum;
 use crate::real::Real;
 use crate::schedule::Signal;
 use crate::space::{Linear as _, Moment as _, Space, Vector as _};
@@ -38,12 +38,7 @@ impl<'s, P: Geometry> Instant<'s, P> {
     pub fn seen(&self, [a, b]: [BodyIndex; 2]) -> Option<Seen<'s, P>> {
         let end = |index: BodyIndex| {
             let (frame, state) = (self.frames.get(index.row())?, self.bodies.get(index.row())?);
-            Some(Body {
-                frame,
-                orientation: &state.orientation,
-                velocity: P::velocity(&state.velocity),
-                spin: P::spin(&state.angular_velocity),
-            })
+            Some(Body { frame, state, sum: None })
         };
         let (a, b) = (End { body: end(a) }, End { body: Some(end(b)?) });
         Some(Seen { a, b, at: *self })
@@ -53,11 +48,25 @@ impl<'s, P: Geometry> Instant<'s, P> {
 /// A body for a law.
 pub(crate) struct Body<'s, P: Geometry> {
     pub(crate) frame: &'s P::Frame,
-    pub(crate) orientation: &'s P::Orientation,
+    pub(crate) state: &'s BodyState<P>,
+    /// The changes of its velocities in a damper pass so far, where they are apart from them.
+    pub(crate) sum: Option<&'s Sum<P::Space>>,
+}
+
+impl<P: Geometry> Body<'_, P> {
     /// \[m/s\] world axes.
-    pub(crate) velocity: P::Vector,
+    #[inline(always)]
+    fn velocity(&self) -> P::Vector {
+        let velocity = P::velocity(&self.state.velocity);
+        self.sum.map_or(velocity, |sum| velocity + sum.linear)
+    }
+
     /// \[rad/s\] body axes.
-    pub(crate) spin: P::Moment,
+    #[inline(always)]
+    fn spin(&self) -> P::Moment {
+        let spin = P::spin(&self.state.angular_velocity);
+        self.sum.map_or(spin, |sum| spin + sum.angular)
+    }
 }
 
 /// One end of an interaction: a body, or the ground.
@@ -123,7 +132,7 @@ impl<'s, P: Geometry> End<'s, P> {
     #[must_use]
     pub fn point_velocity(&self, arm: P::Vector) -> P::Vector {
         self.body.as_ref().map_or(P::Vector::ZERO, |body| {
-            body.velocity + P::moment_to_world(body.frame, body.spin).cross(arm)
+            body.velocity() + P::moment_to_world(body.frame, body.spin()).cross(arm)
         })
     }
 
@@ -131,7 +140,7 @@ impl<'s, P: Geometry> End<'s, P> {
     #[inline(always)]
     #[must_use]
     pub fn spin(&self) -> P::Moment {
-        let spin = |body: &Body<'s, P>| P::moment_to_world(body.frame, body.spin);
+        let spin = |body: &Body<'s, P>| P::moment_to_world(body.frame, body.spin());
         self.body.as_ref().map_or(P::Moment::ZERO, spin)
     }
 
@@ -139,7 +148,7 @@ impl<'s, P: Geometry> End<'s, P> {
     #[inline(always)]
     #[must_use]
     pub fn turn_of(&self, other: &Self) -> <P::Space as Space>::Turn {
-        let orientation = |end: &Self| end.body.as_ref().map(|body| body.orientation);
+        let orientation = |end: &Self| end.body.as_ref().map(|body| &body.state.orientation);
         P::Orientation::relative(orientation(self), orientation(other))
     }
 }
@@ -201,10 +210,10 @@ impl<'s, P: Geometry> Seen<'s, P> {
         let mut rate = P::Real::ZERO;
         let Direction { along, moments: [of_a, of_b] } = direction;
         if let Some(b) = &self.b.body {
-            rate = along.dot(b.velocity) + of_b.dot(b.spin);
+            rate = along.dot(b.velocity()) + of_b.dot(b.spin());
         }
         if let Some(a) = &self.a.body {
-            rate = rate - (along.dot(a.velocity) + of_a.dot(a.spin));
+            rate = rate - (along.dot(a.velocity()) + of_a.dot(a.spin()));
         }
         rate
     }

@@ -166,7 +166,9 @@ macro_rules! with_load {
         impl<P: Geometry> Interaction<P> for $law<P> {
             type State = Loaded<$memory, P::Real>;
             type Dampers = [(); 2];
+            const TURNS: bool = <$friction as Interaction<P>>::TURNS;
             const ADVANCES: bool = true;
+            const ADVANCE_SETTLES: bool = true;
             const BEARS: bool = true;
             const KEEPS: bool = <$friction as Interaction<P>>::KEEPS;
             const QUANTITIES: &'static [Quantity] =
@@ -217,6 +219,11 @@ macro_rules! with_load {
                 visit: Springs<'_, P>,
             ) -> [P::Real; 2] {
                 self.friction(memory.load).tangent(seen, &memory.slip, visit)
+            }
+
+            #[inline(always)]
+            fn is_damped(&self) -> bool {
+                self.damping != P::Real::ZERO || self.viscous != P::Real::ZERO
             }
 
             #[inline(always)]

@@ -32,6 +32,7 @@ impl<P: Geometry> HingeDamper<P> {
 impl<P: Geometry> Interaction<P> for HingeDamper<P> {
     type State = NoStorage;
     type Dampers = [(); 1];
+    const TURNS: bool = true;
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "torque", unit: "N·m" }];
 
     #[inline(always)]

@@ -136,6 +136,7 @@ macro_rules! drive {
         impl<P: Geometry> Interaction<P> for $law<P> {
             type State = TurnRotor<P>;
             type Dampers = [(); 1];
+            const TURNS: bool = true;
             const ADVANCES: bool = true;
             const INNER: bool = true;
             const KEEPS: bool = true;

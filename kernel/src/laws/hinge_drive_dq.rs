@@ -125,6 +125,7 @@ impl<P: Geometry> HingeDriveDq<P> {
 impl<P: Geometry> Interaction<P> for HingeDriveDq<P> {
     type State = WoundRotor<P>;
     type Dampers = [(); 1];
+    const TURNS: bool = true;
     const ADVANCES: bool = true;
     const INNER: bool = true;
     const KEEPS: bool = true;

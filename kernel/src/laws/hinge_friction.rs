@@ -71,13 +71,15 @@ impl<P: Geometry> HingeFriction<P> {
 impl<P: Geometry> Interaction<P> for HingeFriction<P> {
     type State = TurnSlip<P>;
     type Dampers = [(); 2];
+    const TURNS: bool = true;
     const ADVANCES: bool = true;
+    const ADVANCE_SETTLES: bool = true;
     const KEEPS: bool = true;
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "slip", unit: "rad" }];
 
     #[inline(always)]
     fn advance(&self, seen: &Seen<'_, P>, h: P::Real, memory: &mut TurnSlip<P>) {
-        self.settle(seen, memory);
+        memory.turn.settle(seen, &self.axis, |turns| turns);
         if let Some(rubbing) = self.rubbing(memory) {
             rubbing.advance(h, &mut memory.slip);
         }
@@ -113,6 +115,11 @@ impl<P: Geometry> Interaction<P> for HingeFriction<P> {
     ) -> [P::Real; 2] {
         let rubbing = self.rubbing(memory);
         rubbing.map_or([P::Real::ZERO; 2], |rubbing| rubbing.tangent(seen, visit))
+    }
+
+    #[inline(always)]
+    fn is_damped(&self) -> bool {
+        self.damping != P::Real::ZERO || self.viscous != P::Real::ZERO
     }
 
     #[inline(always)]

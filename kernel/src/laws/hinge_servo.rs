@@ -43,6 +43,7 @@ impl<P: Geometry> HingeServo<P> {
 impl<P: Geometry> Interaction<P> for HingeServo<P> {
     type State = TurnPose<P>;
     type Dampers = [(); 1];
+    const TURNS: bool = true;
     const KEEPS: bool = true;
     const DRIVES: bool = true;
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "effort", unit: "N·m" }];

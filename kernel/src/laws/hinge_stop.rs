@@ -59,6 +59,7 @@ macro_rules! stop {
         impl<P: Geometry> Interaction<P> for $law<P> {
             type State = TurnPose<P>;
             type Dampers = [(); 1];
+            const TURNS: bool = true;
             const KEEPS: bool = true;
             const QUANTITIES: &'static [Quantity] = &[Quantity { name: "depth", unit: "rad" }];
 

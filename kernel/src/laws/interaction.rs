@@ -209,6 +209,8 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     type Dampers: Several;
     /// Whether it advances its memory by [`Self::advance`], once per step.
     const ADVANCES: bool = false;
+    /// Whether [`Self::advance`] also does what [`Self::settle`] does, which then is not called after it.
+    const ADVANCE_SETTLES: bool = false;
     /// Whether an update of its memory reduces its energy, as for friction: schemes with steps back in time refuse it
     /// then. A memory that only counts revolutions loses no energy.
     const SLIPS: bool = Self::ADVANCES;
@@ -216,6 +218,8 @@ pub trait Interaction<P: Geometry>: Constants<P> {
     const INNER: bool = false;
     /// Whether [`Self::bear`] gives it the force of a group: costs an evaluation of that group.
     const BEARS: bool = false;
+    /// Whether all its dampers act on rotations only: [`Direction::along`] of each is 0. Their passes are then cheaper.
+    const TURNS: bool = false;
     /// Whether its dampers are those of a drive: their work counts as that of inputs.
     const DRIVES: bool = false;
     /// Whether [`Self::force_pair`] depends on inputs: setting an input then costs an evaluation. Dampers and drives may

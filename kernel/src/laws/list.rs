@@ -22,12 +22,16 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
     const EMPTY: bool;
     /// Whether any may have dampers.
     const DAMPED: bool;
+    /// Whether any may have dampers that act on rotations only.
+    const TURNS: bool;
+    /// Whether any may have other dampers.
+    const PUSHES: bool;
     /// Whether any may advance its memory by steps.
     const ADVANCES: bool;
 
     /// The number of rows.
     fn count(&self) -> usize;
-    /// Whether any row has dampers.
+    /// Whether any row has dampers that may act, by its constants.
     fn is_damped(&self) -> bool;
     /// Whether the force of any row depends on inputs.
     fn is_driven(&self) -> bool;
@@ -83,6 +87,8 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
     type Shares = [SharesOf<P, T>; N];
     const EMPTY: bool = N == 0;
     const DAMPED: bool = N > 0 && T::Dampers::COUNT > 0;
+    const TURNS: bool = <Self as Laws<P>>::DAMPED && T::TURNS;
+    const PUSHES: bool = <Self as Laws<P>>::DAMPED && !T::TURNS;
     const ADVANCES: bool = N > 0 && T::ADVANCES;
 
     #[inline(always)]
@@ -91,7 +97,7 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
     }
     #[inline(always)]
     fn is_damped(&self) -> bool {
-        <Self as Laws<P>>::DAMPED
+        <Self as Laws<P>>::DAMPED && self.iter().any(Interaction::is_damped)
     }
     #[inline(always)]
     fn is_driven(&self) -> bool {
@@ -164,6 +170,8 @@ macro_rules! list {
             type Shares = ($($table::Shares,)*);
             const EMPTY: bool = true $(&& $table::EMPTY)*;
             const DAMPED: bool = false $(|| $table::DAMPED)*;
+            const TURNS: bool = false $(|| $table::TURNS)*;
+            const PUSHES: bool = false $(|| $table::PUSHES)*;
             const ADVANCES: bool = false $(|| $table::ADVANCES)*;
 
             #[inline(always)]

@@ -75,7 +75,7 @@ impl<P: Geometry, const RUBS: bool> Geared<P, RUBS> {
         seen: &Seen<'_, P>,
         rotor: &Rotor<P::Real>,
     ) -> ForcePair<P::Space> {
-        seen.pull(&self.coordinate.direction(seen), -self.pull(rotor))
+        self.coordinate.pull(seen, -self.pull(rotor))
     }
 
     /// \[J\] the energy of gear and rotor.

@@ -43,10 +43,12 @@ pub trait DamperPass<P: Geometry> {
     fn is_evaluated(&self) -> bool;
     /// The ends of a law between two bodies in the pass.
     fn seen(&self, bodies: [BodyIndex; 2]) -> Option<Seen<'_, P>>;
-    /// Applies the dampers of a law, each with its weight, also to the law's internal degree of freedom.
+    /// Applies the dampers of a law, each with its weight, also to the law's internal degree of freedom; `turns` where all
+    /// of them act on rotations only.
     fn act(
         &mut self,
         bodies: [BodyIndex; 2],
+        turns: bool,
         dampers: &[Damper<P>],
         shares: &[Share<P::Real>],
         inner: Option<&mut Inner<P::Real>>,

@@ -181,6 +181,7 @@ macro_rules! sensor {
             type State = Sensed<P::Real>;
             type Dampers = [(); 0];
             const ADVANCES: bool = true;
+            const ADVANCE_SETTLES: bool = true;
             const SLIPS: bool = false;
             const QUANTITIES: &'static [Quantity] = &[Quantity { name: "output", unit: "1" }];
 
@@ -194,6 +195,7 @@ macro_rules! sensor {
             fn advance(&self, seen: &Seen<'_, P>, h: P::Real, sensed: &mut Sensed<P::Real>) {
                 let actual = self.actual(seen, &mut sensed.turns);
                 sensed.advance(&self.chain(), h, actual);
+                sensed.begin(&self.chain(), self.seed, actual);
             }
 
             #[inline(always)]

@@ -43,7 +43,9 @@ pub fn act<P: Geometry, T: Interaction<P>>(
             law.advance(&seen, h, state);
         }
         if act.settle {
-            law.settle(&seen, state);
+            if !(T::ADVANCE_SETTLES && act.advance.is_some()) {
+                law.settle(&seen, state);
+            }
         } else {
             law.keep_pose(&seen, state);
         }
@@ -134,11 +136,11 @@ pub fn sweep<P: Geometry, T: Interaction<P>>(
             continue;
         }
         if !T::INNER {
-            pass.act(bodies, known, shares.as_ref(), None);
+            pass.act(bodies, T::TURNS, known, shares.as_ref(), None);
             continue;
         }
         let mut inner = law.inner(state, kick);
-        pass.act(bodies, known, shares.as_ref(), Some(&mut inner));
+        pass.act(bodies, T::TURNS, known, shares.as_ref(), Some(&mut inner));
         law.set_inner(inner.rate, state);
         if reverse && let Some(seen) = pass.seen(bodies) {
             law.drive(&seen, [time, kick], state);

@@ -6,6 +6,7 @@ use crate::laws::coordinate::Coordinate;
 use crate::laws::end::Seen;
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
 use crate::laws::slip::{Friction, Rubbing, Slip};
+use crate::real::Real as _;
 
 law! {
     /// Dry friction between two bodies that slide along an axis.
@@ -47,6 +48,7 @@ impl<P: Geometry> Interaction<P> for SlideFriction<P> {
     type State = Slip<P::Real>;
     type Dampers = [(); 2];
     const ADVANCES: bool = true;
+    const ADVANCE_SETTLES: bool = true;
     const QUANTITIES: &'static [Quantity] = &[Quantity { name: "slip", unit: "m" }];
 
     #[inline(always)]
@@ -75,6 +77,11 @@ impl<P: Geometry> Interaction<P> for SlideFriction<P> {
         visit: Springs<'_, P>,
     ) -> [P::Real; 2] {
         self.rubbing(seen, slip).tangent(seen, visit)
+    }
+
+    #[inline(always)]
+    fn is_damped(&self) -> bool {
+        self.damping != P::Real::ZERO || self.viscous != P::Real::ZERO
     }
 
     #[inline(always)]

@@ -100,19 +100,20 @@ impl<P: Geometry> Rubbing<P> {
         slip.rest = P::Real::pick(self.tension.less_than(-self.limit), value + give, slip.rest);
     }
 
-    /// Limits the deflection, and advances the limit by a step of `h` \[s\].
+    /// Limits the deflection, advances the limit by a step of `h` \[s\], and limits the deflection by the new one.
     #[inline(always)]
-    pub(super) fn advance(&self, h: P::Real, slip: &mut Slip<P::Real>) {
+    pub(super) fn advance(self, h: P::Real, slip: &mut Slip<P::Real>) {
         self.settle(slip);
         let value = self.coordinate.value;
         let ratio = (value - slip.last) / (h * self.friction.stribeck);
         slip.last = value;
         slip.more = P::Real::ONE / (P::Real::ONE + ratio * ratio);
+        Self::new(self.coordinate, self.friction, slip).settle(slip);
     }
 
     #[inline(always)]
     pub(super) fn force_pair(&self, seen: &Seen<'_, P>) -> ForcePair<P::Space> {
-        seen.pull(&self.coordinate.direction(seen), self.tension)
+        self.coordinate.pull(seen, self.tension)
     }
 
     /// \[J\]

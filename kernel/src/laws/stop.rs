@@ -61,7 +61,7 @@ impl<P: Geometry, const SOFT: bool> Stopped<P, SOFT> {
         if self.is_free() {
             return ForcePair::ZERO;
         }
-        seen.pull(&self.coordinate.direction(seen), self.tension())
+        self.coordinate.pull(seen, self.tension())
     }
 
     /// \[J\]

@@ -34,7 +34,7 @@ impl<P: Geometry, const N: usize> Spring<'_, P, N> {
 
     #[inline(always)]
     pub(super) fn force_pair(&self, seen: &Seen<'_, P>) -> ForcePair<P::Space> {
-        seen.pull(&self.coordinate.direction(seen), self.tension())
+        self.coordinate.pull(seen, self.tension())
     }
 
     /// \[J\] 0 where the extension is 0.

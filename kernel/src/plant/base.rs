@@ -51,6 +51,7 @@ where
     pub(crate) sums:
         <H::Target as ModelOwner>::PerDampedBody<<PrecisionOf<H> as Geometry>::PassSum>,
     pub(crate) in_line: bool,
+    pub(crate) damped_laws: bool,
     pub(crate) cache: Cache,
     pub(crate) status: Status,
 }
@@ -122,7 +123,7 @@ where
         let wrenches = owner.per_body(Wrench::default());
         let unpushed = owner.per_input([Wrench::default(); 2]);
         let sums = owner.per_damped_body(Default::default());
-        let in_line = are_in_line(&view);
+        let (in_line, damped_laws) = (are_in_line(&view), view.laws.is_damped());
         Ok(Self {
             model,
             step_size,
@@ -140,6 +141,7 @@ where
             unpushed,
             sums,
             in_line,
+            damped_laws,
             cache: Cache::default(),
             status: Status::Running,
         })
@@ -170,7 +172,7 @@ where
 
     /// Whether anything is damped.
     pub(crate) fn is_damped(&self) -> bool {
-        <H::Target as ModelOwner>::Terms::DAMPERS || self.model.view().laws.is_damped()
+        <H::Target as ModelOwner>::Terms::DAMPERS || self.damped_laws
     }
 
     /// The damping modes of joints that are damped as a whole.
@@ -250,6 +252,7 @@ where
             unpushed: self.unpushed.as_mut(),
             sums: self.sums.as_mut(),
             in_line: self.in_line,
+            damped_laws: self.damped_laws,
             cache: &mut self.cache,
         };
         (workspace, &mut self.state.step)

@@ -164,6 +164,8 @@ pub struct Workspace<'s, 'm, P: Geometry, T: Terms<P>> {
     pub(crate) sums: &'s mut [P::PassSum],
     /// Whether the groups are uniform, see [`forces::are_in_line`].
     pub(crate) in_line: bool,
+    /// Whether any law has dampers that may act.
+    pub(crate) damped_laws: bool,
     /// The number of evaluations and the validity of the wrenches.
     pub(crate) cache: &'s mut Cache,
 }
@@ -186,7 +188,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     #[must_use]
     pub fn has_dampers(&self) -> bool {
         (T::DAMPERS && !self.model.dampers.is_empty())
-            || (<LawsIn<P, T> as Laws<P>>::DAMPED && self.model.laws.is_damped())
+            || (<LawsIn<P, T> as Laws<P>>::DAMPED && self.damped_laws)
     }
 
     /// Samples the tables of inputs for the coming step.

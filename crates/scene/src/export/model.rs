@@ -55,7 +55,11 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
         model.clearances.len(),
         model.revolutes.len(),
         model.universals.len(),
-        if model.dampers.is_empty() && !model.laws.is_damped() { 0 } else { model.bodies.len() },
+        if model.dampers.is_empty() && model.laws.shares().is_empty() {
+            0
+        } else {
+            model.bodies.len()
+        },
         model.sources.len(),
     ];
     let counts = counts.map(|n| n.to_string()).join(", ");

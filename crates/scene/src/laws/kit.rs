@@ -100,6 +100,16 @@ fn at<L: Law>(law: &L, [state, later]: [&State; 2], input: f64) -> Result<bool, 
     if words(&memory) != once {
         return Err(format!("settling is not idempotent: {once:?}, {:?}", words(&memory)));
     }
+    if <L as Interaction<F64>>::ADVANCE_SETTLES {
+        let mut advanced = memory;
+        law.advance(&seen, STEP, &mut advanced);
+        let once = words(&advanced);
+        law.settle(&seen, &mut advanced);
+        if words(&advanced) != once {
+            let twice = words(&advanced);
+            return Err(format!("advancing does not settle: {once:?}, {twice:?}"));
+        }
+    }
     let acts = with(law, (state, input), &memory)?;
     Ok(acts
         | with(law, (later, input), &memory).map_err(|why| format!("without settling: {why}"))?)
@@ -132,6 +142,9 @@ fn with<L: Law>(
         acts |= tension != 0.0;
         if damper.rate == 0.0 && tension * rate < 0.0 {
             drawn = Err(format!("a damper supplies {} W", -tension * rate));
+        }
+        if <L as Interaction<F64>>::TURNS && damper.direction.along != Vec3::ZERO {
+            drawn = Err(format!("damper {dampers} acts on translations, but the law sets TURNS"));
         }
         let pull = momentum(state, &seen.pull(&damper.direction, 1.0));
         drawn = drawn.clone().and(pull.map_err(|why| format!("damper {dampers}: {why}")));

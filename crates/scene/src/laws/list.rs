@@ -140,13 +140,15 @@ impl<P: Geometry> Laws<P> for LawList<P> {
     type Shares = Vec<Share<P::Real>>;
     const EMPTY: bool = false;
     const DAMPED: bool = true;
+    const TURNS: bool = true;
+    const PUSHES: bool = true;
     const ADVANCES: bool = true;
 
     fn count(&self) -> usize {
         self.tables.iter().map(|table| table.rows.count()).sum()
     }
     fn is_damped(&self) -> bool {
-        self.tables.iter().any(|table| table.rows.dampers() > 0)
+        self.tables.iter().any(|table| table.rows.is_damped())
     }
     fn is_driven(&self) -> bool {
         self.tables.iter().any(|table| table.rows.is_driven())

@@ -70,6 +70,7 @@ pub(crate) trait Rows<P: Geometry>: Send + Sync {
     fn words(&self) -> usize;
     /// Dampers of a row.
     fn dampers(&self) -> usize;
+    fn is_damped(&self) -> bool;
     fn is_driven(&self) -> bool;
     fn initial(&self) -> Vec<Word>;
     fn memory(&self) -> Option<(&'static str, Need)>;
@@ -111,6 +112,9 @@ impl<P: Geometry, T: Interaction<P>> Rows<P> for Of<T> {
     }
     fn dampers(&self) -> usize {
         T::Dampers::COUNT
+    }
+    fn is_damped(&self) -> bool {
+        T::Dampers::COUNT > 0 && self.0.iter().any(Interaction::is_damped)
     }
     fn is_driven(&self) -> bool {
         T::DRIVEN && !self.0.is_empty()

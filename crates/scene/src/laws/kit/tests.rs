@@ -177,16 +177,6 @@ fn a_wheel_keeps_what_laws_promise() {
     hold(&lies, Poses { turn: 3.0, ..Poses::default() }).unwrap();
 }
 
-dbd_kernel::law! {
-    /// A spring of zero length that breaks a rule.
-    pub struct Broken = "broken" {
-        /// Where it is fixed.
-        points: Points,
-        /// Which rule.
-        rule: Count,
-    }
-}
-
 /// Counts the calls of settle.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settled(i32);
@@ -200,48 +190,78 @@ impl dbd_kernel::words::Words for Settled {
     }
 }
 
-impl<P: dbd_kernel::Geometry> Interaction<P> for Broken<P> {
-    type State = Settled;
-    type Dampers = [(); 1];
+/// A law that breaks a rule; the second one also promises what [`Interaction::TURNS`] and
+/// [`Interaction::ADVANCE_SETTLES`] state.
+macro_rules! broken {
+    ($law:ident, $name:literal, $turns:literal) => {
+        dbd_kernel::law! {
+            /// A spring of zero length that breaks a rule.
+            pub struct $law = $name {
+                /// Where it is fixed.
+                points: Points,
+                /// Which rule.
+                rule: Count,
+            }
+        }
 
-    fn settle(&self, _: &Seen<'_, P>, state: &mut Settled) {
-        state.0 += i32::from(self.rule == 1);
-        state.0 |= i32::from(self.rule == 8);
-    }
-    fn force_pair(&self, seen: &Seen<'_, P>, _: &Settled) -> Option<ForcePair<P::Space>> {
-        let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
-        let way = P::displacement(&a.0, &b.0);
-        let arms = if self.rule == 2 { [b.1, b.1] } else { [a.1, b.1] };
-        Some(seen.pull(&seen.along(way, arms), P::Real::ONE))
-    }
-    fn energy(&self, seen: &Seen<'_, P>, state: &Settled) -> P::Real {
-        let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
-        let way = P::displacement(&a.0, &b.0);
-        let held = if self.rule == 8 && state.0 == 0 { P::Real::ONE } else { P::Real::ZERO };
-        if self.rule == 3 { way.dot(way) } else { P::Real::HALF * way.dot(way) + held }
-    }
-    fn tangent(&self, seen: &Seen<'_, P>, _: &Settled, visit: Springs<'_, P>) -> [P::Real; 2] {
-        let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
-        let way = P::displacement(&a.0, &b.0);
-        if self.rule == 4 {
-            return [P::Real::ZERO; 2];
+        impl<P: dbd_kernel::Geometry> Interaction<P> for $law<P> {
+            type State = Settled;
+            type Dampers = [(); 1];
+            const TURNS: bool = $turns;
+            const ADVANCE_SETTLES: bool = $turns;
+
+            fn advance(&self, _: &Seen<'_, P>, _: P::Real, state: &mut Settled) {
+                state.0 = 0;
+            }
+            fn settle(&self, _: &Seen<'_, P>, state: &mut Settled) {
+                state.0 += i32::from(self.rule == 1);
+                state.0 |= i32::from(self.rule == 8 || self.rule == 9);
+            }
+            fn force_pair(&self, seen: &Seen<'_, P>, _: &Settled) -> Option<ForcePair<P::Space>> {
+                let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+                let way = P::displacement(&a.0, &b.0);
+                let arms = if self.rule == 2 { [b.1, b.1] } else { [a.1, b.1] };
+                Some(seen.pull(&seen.along(way, arms), P::Real::ONE))
+            }
+            fn energy(&self, seen: &Seen<'_, P>, state: &Settled) -> P::Real {
+                let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+                let way = P::displacement(&a.0, &b.0);
+                let held =
+                    if self.rule == 8 && state.0 == 0 { P::Real::ONE } else { P::Real::ZERO };
+                if self.rule == 3 { way.dot(way) } else { P::Real::HALF * way.dot(way) + held }
+            }
+            fn tangent(
+                &self,
+                seen: &Seen<'_, P>,
+                _: &Settled,
+                visit: Springs<'_, P>,
+            ) -> [P::Real; 2] {
+                let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+                let way = P::displacement(&a.0, &b.0);
+                if self.rule == 4 {
+                    return [P::Real::ZERO; 2];
+                }
+                for axis in P::Vector::axes() {
+                    visit(P::Real::ONE, &seen.along(axis, [a.1, b.1]));
+                }
+                [a.1, b.1].map(|arm| (way.dot(way) * arm.dot(arm)).sqrt())
+            }
+            fn dampers(&self, seen: &Seen<'_, P>, _: &Settled, visit: &mut impl FnMut(Damper<P>)) {
+                let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
+                let arms = if self.rule == 7 { [a.1, a.1] } else { [a.1, b.1] };
+                let direction = seen.along(P::displacement(&a.0, &b.0), arms);
+                let c = if self.rule == 5 { -P::Real::ONE } else { P::Real::ONE };
+                visit(Damper::new(c, direction));
+                if self.rule == 6 {
+                    visit(Damper::new(c, direction));
+                }
+            }
         }
-        for axis in P::Vector::axes() {
-            visit(P::Real::ONE, &seen.along(axis, [a.1, b.1]));
-        }
-        [a.1, b.1].map(|arm| (way.dot(way) * arm.dot(arm)).sqrt())
-    }
-    fn dampers(&self, seen: &Seen<'_, P>, _: &Settled, visit: &mut impl FnMut(Damper<P>)) {
-        let (a, b) = (seen.a.place(&self.points[0]), seen.b.place(&self.points[1]));
-        let arms = if self.rule == 7 { [a.1, a.1] } else { [a.1, b.1] };
-        let direction = seen.along(P::displacement(&a.0, &b.0), arms);
-        let c = if self.rule == 5 { -P::Real::ONE } else { P::Real::ONE };
-        visit(Damper::new(c, direction));
-        if self.rule == 6 {
-            visit(Damper::new(c, direction));
-        }
-    }
+    };
 }
+
+broken!(Broken, "broken", false);
+broken!(Promising, "promising", true);
 
 #[test]
 fn a_law_that_breaks_a_rule_is_told_which() {
@@ -261,6 +281,9 @@ fn a_law_that_breaks_a_rule_is_told_which() {
         let why = broken(rule).unwrap_err();
         assert!(why.contains(says), "{rule}: {why}");
     }
+    let promising = |rule| hold(&Promising { bodies: BODIES, points, rule }, Poses::default());
+    assert!(promising(0).unwrap_err().contains("the law sets TURNS"));
+    assert!(promising(9).unwrap_err().contains("advancing does not settle"));
     let away = EndStop { points: [Vec3::ZERO, Vec3::new(0.0, 1.0, 1.0)], ..end_stop(0.0) };
     let near = Poses { reach: 1e-9, turn: 1e-9, ..Poses::default() };
     assert!(hold(&away, near).unwrap_err().contains("no effect at any pose"));
