@@ -72,25 +72,10 @@ const SOLVED: &[(&str, &str, &[&str], &[&str])] = &[
     ("double-wishbone", "", &[], &["f32", "f64"]),
     ("gripper", "", &[], &["f32"]),
 ];
-/// Scenes of `tests/fuzz/corpus/scene` that have every law together, in every precision.
-const LAWFUL: &[&str] = &[
-    "chains",
-    "contact",
-    "couplings",
-    "driven",
-    "drives",
-    "interactions",
-    "limits",
-    "mount",
-    "mounts",
-    "wheel",
-    "winch",
-];
 /// Elements that do not exist in the plane, or not with these values.
 const SPATIAL: &[&str] = &["bushing-matrix"];
-/// Scenes of `docs/examples` with laws in the plane, in single precision, with their steps.
-const PLANAR: &[(&str, &str)] =
-    &[("crane", "100us"), ("grasp", "100us"), ("quarter-car", "200us"), ("wiper", "100us")];
+/// The golden hashes of scenes with laws.
+const LAWS: &str = "../../tests/bits/laws.csv";
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
 
@@ -227,32 +212,33 @@ fn elements() {
     write("elements.rs", &(modules + &list("elements", "of an element", &lines)));
 }
 
-/// Models of scenes with laws; the macro `lawful`.
+/// Models of the scenes with golden hashes of laws that the target has room and time for; the macro `lawful`: those of
+/// `tests/fuzz/corpus/scene`, in double precision for few steps, and the examples in the plane in single precision.
 fn laws() {
+    println!("cargo:rerun-if-changed={LAWS}");
+    let golden = std::fs::read_to_string(LAWS).expect("the golden hashes of laws");
     let (mut modules, mut lines) = (String::new(), String::new());
-    let mut add = |name: &str, build: &Build, precisions: &[&str]| {
-        let module = export::constant_name(name).to_lowercase();
+    for row in golden.lines().skip(1) {
+        let columns: Vec<&str> = row.split(',').collect();
+        let &[name, _, precision, step, steps, _] = &columns[..] else { panic!("a row of {LAWS}") };
+        let together = PathBuf::from(format!("../../tests/fuzz/corpus/scene/{name}.toml"));
+        let build = match name.strip_suffix("-planar") {
+            Some(name) if precision == "f32" => {
+                Build::scene(format!("../../docs/examples/{name}/{name}.toml")).set("planar=true")
+            }
+            None if together.exists() && (precision != "f64" || steps == "100") => {
+                Build::scene(together)
+            }
+            _ => continue,
+        };
+        let build = build.step(step).precision(precision);
+        let module = export::constant_name(&format!("{name}-{precision}")).to_lowercase();
         let constant = export::constant_name(build.file_name().trim_end_matches(".rs"));
-        for precision in precisions {
-            // Double precision is dear there.
-            let steps = if *precision == "f64" { 100 } else { 1_000 };
-            let precision = precision.to_uppercase();
-            lines += &format!(
-                "            {module} \"{name}\" {constant}_STEP {steps}, {constant}_{precision};\n"
-            );
-        }
-        let source = source(build);
+        let (source, precision) = (source(&build), precision.to_uppercase());
         modules += &format!("/// The scene `{name}`.\npub mod {module} {{\n{source}}}\n");
-    };
-    for name in LAWFUL {
-        let file = PathBuf::from("../../tests/fuzz/corpus/scene").join(name).with_extension("toml");
-        let build = Build::scene(file).step("100us").precision("f32");
-        add(name, &build.precision("fixed").precision("f64"), &["f32", "fixed", "f64"]);
-    }
-    for (name, step) in PLANAR {
-        let file = format!("../../docs/examples/{name}/{name}.toml");
-        let build = Build::scene(file).step(step).set("planar=true").precision("f32");
-        add(&format!("{name}-planar"), &build, &["f32"]);
+        lines += &format!(
+            "            {module} \"{name}\" {constant}_STEP {steps}, {constant}_{precision};\n"
+        );
     }
     write("laws.rs", &(modules + &list("lawful", "with laws", &lines)));
 }

@@ -26,7 +26,6 @@ pub const GOLDEN: &str = "tests/bits/hashes.csv";
 const JOINT_WISE: &str = "tests/bits/joint-wise.csv";
 /// The same of fixed point.
 pub const FIXED: &str = "tests/bits/fixed.csv";
-
 /// The same of scenes with laws.
 const LAWS: &str = "tests/bits/laws.csv";
 
@@ -91,26 +90,26 @@ fn compare_of(toolchain: &Toolchain, host: &Host, long: bool, limits: &[&str]) -
 /// Where a hash differs or is missing, or the program fails.
 pub fn compare_laws(toolchain: &Toolchain) -> Result<()> {
     let target = parse(&firmware::execute(toolchain, firmware::LAWS, false, &[])?);
-    let golden = read(&[LAWS])?;
-    for ((combination, steps), hash) in &golden {
-        let key = (combination.clone(), *steps);
-        match target.get(&key) {
-            Some(found) if found != hash => {
-                bail!("{combination} after {steps} steps: {found}, but {LAWS} has {hash}")
-            }
-            // The row of each scene that the target has in double precision.
-            None if *steps == 100 => bail!("the target did not step {combination}"),
-            _ => {}
-        }
-    }
-    let last: BTreeMap<_, _> = target.keys().map(|(name, steps)| (name, steps)).collect();
-    for (name, steps) in &last {
-        if !golden.contains_key(&((*name).clone(), **steps)) {
-            bail!("{LAWS} has no hash of {name} after {steps} steps");
-        }
-    }
-    println!("\n{} combinations have on the target the hashes of {LAWS}", last.len());
+    let combinations = ended_as(&target, &read(&[LAWS])?)?;
+    println!("\n{combinations} combinations have on the target the hashes of {LAWS}");
     Ok(())
+}
+
+/// Compares the last hash of each combination, at least one, with the golden one; returns their number.
+fn ended_as(target: &Hashes, golden: &Hashes) -> Result<usize> {
+    let last: BTreeMap<_, _> =
+        target.iter().map(|((name, steps), hash)| (name, (*steps, hash))).collect();
+    for (name, (steps, found)) in &last {
+        match golden.get(&((*name).clone(), *steps)) {
+            Some(hash) if hash == *found => {}
+            Some(hash) => bail!("{name} after {steps} steps: {found}, but {LAWS} has {hash}"),
+            None => bail!("{LAWS} has no hash of {name} after {steps} steps"),
+        }
+    }
+    if last.is_empty() {
+        bail!("the target stepped no scene with laws");
+    }
+    Ok(last.len())
 }
 
 /// The golden tables.
@@ -179,5 +178,19 @@ mod tests {
         let target = hashes(&["hash a dbd f32 1 00", "hash a dbd f32 2 02"]);
         assert_eq!(host.len(), 2);
         assert_eq!(first_difference(&host, &target), "a dbd f32 after 2 steps: 02 for 01");
+    }
+    #[test]
+    fn a_run_must_end_as_the_golden_table_says() {
+        let golden = hashes(&["hash a leapfrog f32 100 00", "hash b leapfrog f32 100 01"]);
+        let one = ["hash a leapfrog f32 50 07", "hash a leapfrog f32 100 00"];
+        assert_eq!(ended_as(&hashes(&one), &golden).unwrap(), 1);
+        for (wrong, says) in [
+            (&["hash b leapfrog f32 100 02"][..], "b leapfrog f32 after 100 steps: 02, but"),
+            (&one[..1], "no hash of a leapfrog f32 after 50 steps"),
+            (&[], "no scene with laws"),
+        ] {
+            let why = ended_as(&hashes(wrong), &golden).unwrap_err().to_string();
+            assert!(why.contains(says), "{why}");
+        }
     }
 }
