@@ -107,7 +107,7 @@ pub fn energy_with_extensions<M: ModelOwner>(
     }
     let at = Instant { frames: frames.as_ref(), bodies, signals: state.signals.as_ref() };
     view.laws.look_at_all(&state.laws, &mut |_, law| {
-        if let Some(seen) = at.seen(law.bodies()) {
+        if let Some(seen) = law.seen(at) {
             sum.law = sum.law + law.energy(&seen);
         }
     });
@@ -129,7 +129,7 @@ pub fn of_memories<M: ModelOwner>(model: &M, state: &State<M>) -> RealOf<M> {
     let at = Instant { frames: frames.as_ref(), bodies, signals: state.signals.as_ref() };
     let mut sum = RealOf::<M>::ZERO;
     view.laws.look_at_all(&state.laws, &mut |_, law| {
-        if let (None, Some(seen)) = (law.inner(), at.seen(law.bodies())) {
+        if let (None, Some(seen)) = (law.inner(RealOf::<M>::ZERO), law.seen(at)) {
             sum = sum + law.energy(&seen);
         }
     });

@@ -129,12 +129,12 @@ fn of_drives<M: ModelOwner>(
     let at = LawInstant { frames, bodies: state.bodies.as_ref(), signals: state.signals.as_ref() };
     let mut sums = [RealOf::<M>::ZERO; 2];
     view.laws.look_at_all(&state.laws, &mut |_, law| {
-        let Some(seen) = at.seen(law.bodies()) else { return };
+        let Some(seen) = law.seen(at) else { return };
         let [supplied, taken] = &mut sums;
         *supplied = *supplied + law.supply(&seen);
         *taken = *taken + law.loss();
         let driven = law.driven_rate(&seen);
-        let own = law.inner().map_or(RealOf::<M>::ZERO, |inner| inner.rate);
+        let own = law.inner(RealOf::<M>::ZERO).map_or(RealOf::<M>::ZERO, |inner| inner.rate);
         law.each_damper(&seen, &mut |_, damper| {
             let rate = seen.rate(&damper.direction);
             let inner = damper.inner() * own;

@@ -274,7 +274,7 @@ pub fn read<M: ModelOwner>(
             let mut reading = None;
             view.laws.look(law.0.into(), &state.laws, &mut |law| {
                 let known = usize::from(quantity) < law.quantities().len();
-                if let Some(seen) = at.seen(law.bodies()).filter(|_| known) {
+                if let Some(seen) = law.seen(at).filter(|_| known) {
                     reading = Some(Reading::Scalar(law.read(quantity.into(), &seen)));
                 }
             });

@@ -101,9 +101,9 @@ pub(crate) fn interactions_at_start(scene: &Scene) -> Vec<AtStart> {
     found
 }
 
-fn at_start(law: &dyn Row<F64>, instant: Instant<'_, F64>) -> AtStart {
+fn at_start(law: &mut dyn Row<F64>, instant: Instant<'_, F64>) -> AtStart {
     let mut start = AtStart { depth: None, force: 0.0, torque: 0.0 };
-    let Some(seen) = instant.seen(law.bodies()) else { return start };
+    let Some(seen) = law.seen(instant) else { return start };
     let quantities = law.quantities().iter().enumerate();
     start.depth = quantities
         .filter(|(_, quantity)| quantity.name == "depth")

@@ -171,7 +171,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
             }
             Mount::Law(row) => model.laws.look(row, states, &mut |law| {
                 let at = Instant { frames: places.frames, bodies, signals: places.signals };
-                let Some(seen) = at.seen(law.bodies()) else { return };
+                let Some(seen) = law.seen(at) else { return };
                 law.each_damper(&seen, &mut |number, damper| {
                     visit(number, one, damper.coefficient, &damper.direction);
                 });

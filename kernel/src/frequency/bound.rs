@@ -141,7 +141,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         self.view.laws.look_at_all(self.memories.1, &mut |row, law| {
             visit(Mount::Law(row), law.bodies());
             if law.most_branches() > 0
-                && let Some(seen) = at.seen(law.bodies())
+                && let Some(seen) = law.seen(at)
             {
                 law.each_branch(&seen, &mut |place, branch| {
                     visit(Mount::Branch(row, place), branch.bodies);
@@ -247,7 +247,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
             Mount::Law(row) => {
                 view.laws.look(row, self.memories.1, &mut |law| {
                     let ends = law.bodies();
-                    let Some(seen) = self.at().seen(ends) else { return };
+                    let Some(seen) = law.seen(self.at()) else { return };
                     let (end, share): (_, P::Real) = self.end_of(ends, here);
                     // (Σ rᵢ)² ≤ n·Σ rᵢ²: a spring along n directions counts at most n times each.
                     let mut terms = P::Real::ONE;
@@ -262,7 +262,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                 });
             }
             Mount::Branch(row, place) => view.laws.look(row, self.memories.1, &mut |law| {
-                let Some(seen) = self.at().seen(law.bodies()) else { return };
+                let Some(seen) = law.seen(self.at()) else { return };
                 let mut first = None;
                 law.tangent(&seen, &mut |stiffness, _| {
                     first.get_or_insert(stiffness);

@@ -6,7 +6,7 @@ use crate::elements::share::Share;
 use crate::force_pair::Wrench;
 use crate::geometry::Geometry;
 use crate::laws::end::Instant;
-use crate::laws::interaction::{Interaction, Need, SharesOf};
+use crate::laws::interaction::{Damper, Interaction, Need, SharesOf};
 use crate::laws::row::{Act, DamperPass, Row};
 use crate::laws::several::Several;
 use crate::laws::slice;
@@ -58,8 +58,8 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
         shares: &Self::Shares,
         pass: &mut dyn DamperPass<P>,
     );
-    /// Passes a row to `look`; does nothing where the list has no such row.
-    fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&dyn Row<P>));
+    /// Passes a row with a copy of its memory to `look`; does nothing where the list has no such row.
+    fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&mut dyn Row<P>));
     /// The weight of a damper of a row.
     fn share_mut<'s>(
         &self,
@@ -75,7 +75,7 @@ pub trait Laws<P: Geometry>: Send + Sync + 'static {
     fn memory(&self) -> Option<(&'static str, Need)>;
 
     /// Visits every row in order.
-    fn look_at_all(&self, states: &Self::States, visit: &mut dyn FnMut(usize, &dyn Row<P>)) {
+    fn look_at_all(&self, states: &Self::States, visit: &mut dyn FnMut(usize, &mut dyn Row<P>)) {
         for row in 0..self.count() {
             self.look(row, states, &mut |law| visit(row, law));
         }
@@ -119,7 +119,10 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
         act: Act<'_, P>,
         wrenches: &mut [Wrench<P::Space>],
     ) -> Result<(), usize> {
-        slice::act::<P, T>(self, at, states, act, wrenches)
+        for (number, (law, state)) in self.iter().zip(states).enumerate() {
+            slice::act(&mut slice::row(law, state), at, act, wrenches).ok_or(number)?;
+        }
+        Ok(())
     }
     #[inline(always)]
     fn sweep(
@@ -129,10 +132,23 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
         shares: &Self::Shares,
         pass: &mut dyn DamperPass<P>,
     ) {
-        slice::sweep::<P, T>(self, [reverse, pass.is_evaluated()], states, shares, pass);
+        let order = [reverse, pass.is_evaluated()];
+        for row in 0..N {
+            let row = if reverse { N - 1 - row } else { row };
+            let (Some(law), Some(state), Some(shares)) =
+                (self.get(row), states.get_mut(row), shares.get(row))
+            else {
+                break;
+            };
+            let mut dampers = T::Dampers::of(Damper::idle());
+            let row = &mut slice::row(law, state);
+            slice::sweep(row, order, shares.as_ref(), dampers.as_mut(), pass);
+        }
     }
-    fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&dyn Row<P>)) {
-        slice::look::<P, T>(self, row, states, look);
+    fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&mut dyn Row<P>)) {
+        if let (Some(law), Some(state)) = (self.get(row), states.get(row)) {
+            look(&mut slice::row(law, &mut { *state }));
+        }
     }
     fn share_mut<'s>(
         &self,
@@ -227,7 +243,7 @@ macro_rules! list {
                     )*
                 }
             }
-            fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&dyn Row<P>)) {
+            fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&mut dyn Row<P>)) {
                 let mut row = row;
                 $(
                     let count = self.$i.count();

@@ -112,7 +112,7 @@ pub use row::{Act, DamperPass, GroupForces, Row};
 pub use sensor::{HingeSensor, Sensed, SlideSensor};
 pub use several::Several;
 #[doc(hidden)]
-pub use slice::{act, look, memory, shares_of, sweep};
+pub use slice::{act, memory, row, sweep};
 pub use slide_drive::{SlideDrive, SlideDriveFriction};
 pub use slide_friction::SlideFriction;
 pub use slide_servo::SlideServo;

@@ -5,7 +5,7 @@ use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::branch::Branch;
-use crate::laws::end::Seen;
+use crate::laws::end::{Instant, Seen};
 use crate::laws::interaction::{Damper, Inner, Quantity, Springs};
 use crate::words::WordVisitor;
 
@@ -62,14 +62,23 @@ pub trait DamperPass<P: Geometry> {
     );
 }
 
-/// A row of a table with its memory, for callers outside a step.
+/// A row of a table with its memory. [`Self::seen`], [`Self::update`] or [`Self::keep_pose`] comes before all that takes a
+/// pose.
 pub trait Row<P: Geometry> {
     /// The law's name.
     fn name(&self) -> &'static str;
     /// A and B.
     fn bodies(&self) -> [BodyIndex; 2];
-    /// The number of its dampers.
-    fn dampers(&self) -> usize;
+    /// Its ends at an instant, for callers outside a step; `None` where the second is not a body.
+    fn seen<'s>(&mut self, at: Instant<'s, P>) -> Option<Seen<'s, P>>;
+    /// Updates its memory for an evaluation: the force of a group, the step, then the pose.
+    fn update(&mut self, seen: &Seen<'_, P>, act: Act<'_, P>);
+    /// [`Interaction::KEEPS`](crate::laws::Interaction::KEEPS).
+    fn keeps(&self) -> bool;
+    /// [`Interaction::keep_pose`](crate::laws::Interaction::keep_pose).
+    fn keep_pose(&mut self, seen: &Seen<'_, P>);
+    /// [`Interaction::is_idle`](crate::laws::Interaction::is_idle).
+    fn is_idle(&self) -> bool;
     /// [`Interaction::force_pair`](crate::laws::Interaction::force_pair).
     fn force_pair(&self, seen: &Seen<'_, P>) -> Option<ForcePair<P::Space>>;
     /// [`Interaction::energy`](crate::laws::Interaction::energy).
@@ -89,12 +98,24 @@ pub trait Row<P: Geometry> {
         seen: &Seen<'_, P>,
         visit: Springs<'_, P>,
     ) -> [P::Real; 2];
+    /// The number of its dampers.
+    fn dampers(&self) -> usize;
+    /// [`Interaction::is_damped`](crate::laws::Interaction::is_damped), where it has dampers.
+    fn is_damped(&self) -> bool;
+    /// [`Interaction::TURNS`](crate::laws::Interaction::TURNS).
+    fn turns(&self) -> bool;
     /// [`Interaction::dampers`](crate::laws::Interaction::dampers).
     fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>));
     /// [`Interaction::DRIVES`](crate::laws::Interaction::DRIVES).
     fn drives(&self) -> bool;
-    /// [`Interaction::inner`](crate::laws::Interaction::inner), where it has one.
-    fn inner(&self) -> Option<Inner<P::Real>>;
+    /// [`Interaction::inner`](crate::laws::Interaction::inner) after a kick, where it has one.
+    fn inner(&self, kick: P::Real) -> Option<Inner<P::Real>>;
+    /// [`Interaction::set_inner`](crate::laws::Interaction::set_inner).
+    fn set_inner(&mut self, rate: P::Real);
+    /// [`Interaction::kick`](crate::laws::Interaction::kick).
+    fn kick(&mut self, seen: &Seen<'_, P>, h: P::Real) -> P::Real;
+    /// [`Interaction::drive`](crate::laws::Interaction::drive).
+    fn drive(&mut self, seen: &Seen<'_, P>, time_and_kick: [P::Real; 2]);
     /// [`Interaction::inner_square`](crate::laws::Interaction::inner_square).
     fn inner_square(&self) -> P::Real;
     /// [`Interaction::supply`](crate::laws::Interaction::supply).
@@ -103,6 +124,8 @@ pub trait Row<P: Geometry> {
     fn loss(&self) -> P::Real;
     /// [`Interaction::driven_rate`](crate::laws::Interaction::driven_rate).
     fn driven_rate(&self, seen: &Seen<'_, P>) -> P::Real;
+    /// [`Interaction::turn`](crate::laws::Interaction::turn).
+    fn turn(&mut self, turn: &mut dyn FnMut(usize, [f64; 3]) -> [f64; 3]);
     /// [`Interaction::QUANTITIES`](crate::laws::Interaction::QUANTITIES).
     fn quantities(&self) -> &'static [Quantity];
     /// [`Interaction::read`](crate::laws::Interaction::read).

@@ -1,4 +1,4 @@
-//! The rows of one law, one after the other: common to all tables, wherever their rows are stored.
+//! The rows of laws, one by one: common to all tables, wherever their rows are stored.
 
 use crate::elements::share::Share;
 use crate::force_pair::{ForcePair, Wrench, apply};
@@ -7,157 +7,115 @@ use crate::index::BodyIndex;
 use crate::laws::branch::Branch;
 use crate::laws::branches::Branches;
 use crate::laws::end::{Instant, Seen};
-use crate::laws::interaction::{Damper, Inner, Interaction, Need, Quantity, SharesOf, Springs};
+use crate::laws::interaction::{Damper, Inner, Interaction, Need, Quantity, Springs};
 use crate::laws::row::{Act, DamperPass, Row};
 use crate::laws::several::Several;
 use crate::real::Real as _;
 use crate::words::{Word, WordSource, WordVisitor, Words as _};
 
-/// The weights of a row's dampers.
-#[must_use]
-pub fn shares_of<P: Geometry, T: Interaction<P>>(_: &T) -> SharesOf<P, T> {
-    T::Dampers::of(Share::ALONE)
-}
-
-/// Adds the records of the rows in order; fails with the first undefined one.
-///
-/// # Errors
-/// The row.
+/// Adds the record of a row to the wrenches; `None` where it is undefined.
 #[inline(always)]
-pub fn act<P: Geometry, T: Interaction<P>>(
-    rows: &[T],
+pub fn act<P: Geometry, R: Row<P> + ?Sized>(
+    row: &mut R,
     at: Instant<'_, P>,
-    states: &mut [T::State],
     act: Act<'_, P>,
     wrenches: &mut [Wrench<P::Space>],
-) -> Result<(), usize> {
-    for (row, (law, state)) in rows.iter().zip(states).enumerate() {
-        let bodies = law.bodies();
-        let Some(seen) = at.seen(bodies) else { continue };
-        if T::BEARS && act.settle {
-            law.bear(&seen, act.groups.force(law.group()), state);
-        }
-        if T::ADVANCES
-            && let Some(h) = act.advance
-        {
-            law.advance(&seen, h, state);
-        }
-        if act.settle {
-            if !(T::ADVANCE_SETTLES && act.advance.is_some()) {
-                law.settle(&seen, state);
+) -> Option<()> {
+    let bodies = row.bodies();
+    let Some(seen) = at.seen(bodies) else { return Some(()) };
+    row.update(&seen, act);
+    let mut force_pair = row.force_pair(&seen)?;
+    let mut branches = Branches::of(row, &seen);
+    if act.damped && row.dampers() > 0 {
+        let own = row.inner(P::Real::ZERO);
+        row.each_damper(&seen, &mut |_, damper| {
+            let mut rate = seen.rate(&damper.direction);
+            if let Some(own) = own {
+                rate = rate + damper.inner() * own.rate;
             }
-        } else {
-            law.keep_pose(&seen, state);
-        }
-        let Some(mut force_pair) = law.force_pair(&seen, state) else { return Err(row) };
-        let mut branches = Branches::of(law, &seen, state);
-        if act.damped && T::Dampers::COUNT > 0 {
-            let own = if T::INNER { law.inner(state, P::Real::ZERO).rate } else { P::Real::ZERO };
-            law.dampers(&seen, state, &mut |damper| {
-                let mut rate = seen.rate(&damper.direction);
-                if T::INNER {
-                    rate = rate + damper.inner() * own;
-                }
-                if T::BRANCHES > 0 {
-                    rate = rate + branches.rate(&seen);
-                }
-                let tension = damper.tension(rate);
-                force_pair = force_pair.with(&seen.pull(&damper.direction, tension));
-                if T::BRANCHES > 0 {
-                    branches.pull(tension);
-                }
-            });
-        }
-        let [a, b] = bodies.map(BodyIndex::row);
-        apply(wrenches, a, b, &force_pair);
-        if T::BRANCHES > 0 {
-            branches.apply(&seen, wrenches);
-        }
+            if let Some(branches) = &branches {
+                rate = rate + branches.rate(&seen);
+            }
+            let tension = damper.tension(rate);
+            force_pair = force_pair.with(&seen.pull(&damper.direction, tension));
+            if let Some(branches) = &mut branches {
+                branches.pull(tension);
+            }
+        });
     }
-    Ok(())
+    let [a, b] = bodies.map(BodyIndex::row);
+    apply(wrenches, a, b, &force_pair);
+    if let Some(branches) = branches {
+        branches.apply(&seen, wrenches);
+    }
+    Some(())
 }
 
-/// Applies the dampers of the rows, in descending order with `reverse`; `kept` where [`act`] was called at this pose with
-/// the same memories.
+/// Applies the dampers of a row, in the second half of a step with `reverse`; `kept` where [`act`] was called at this pose
+/// with the same memory. `dampers` has room for all of them.
 #[inline(always)]
-pub fn sweep<P: Geometry, T: Interaction<P>>(
-    rows: &[T],
+pub fn sweep<P: Geometry, R: Row<P> + ?Sized>(
+    row: &mut R,
     [reverse, kept]: [bool; 2],
-    states: &mut [T::State],
-    shares: &[SharesOf<P, T>],
+    shares: &[Share<P::Real>],
+    dampers: &mut [Damper<P>],
     pass: &mut dyn DamperPass<P>,
 ) {
-    if T::Dampers::COUNT == 0 {
+    if !row.is_damped() {
         return;
     }
-    for row in 0..rows.len() {
-        let row = if reverse { rows.len() - 1 - row } else { row };
-        let (Some(law), Some(state), Some(shares)) =
-            (rows.get(row), states.get_mut(row), shares.get(row))
-        else {
-            break;
-        };
-        if !law.is_damped() {
-            continue;
+    let bodies = row.bodies();
+    if row.keeps() {
+        if !kept && let Some(seen) = pass.seen(bodies) {
+            row.keep_pose(&seen);
         }
-        let bodies = law.bodies();
-        if T::KEEPS {
-            if !kept && let Some(seen) = pass.seen(bodies) {
-                law.keep_pose(&seen, state);
+        if row.is_idle() {
+            return;
+        }
+    }
+    let (mut count, mut kick, time) = (0, P::Real::ZERO, pass.time());
+    let inner = row.inner(kick).is_some();
+    let branches;
+    {
+        let Some(seen) = pass.seen(bodies) else { return };
+        if inner {
+            kick = row.kick(&seen, time);
+            if !reverse {
+                row.drive(&seen, [time, kick]);
             }
-            if law.is_idle(state) {
-                continue;
+        }
+        row.each_damper(&seen, &mut |place, damper| {
+            if let Some(place) = dampers.get_mut(place) {
+                *place = *damper;
+                count += 1;
             }
+        });
+        branches = Branches::of(row, &seen);
+    }
+    let known = dampers.get(..count).unwrap_or_default();
+    if let Some(branches) = branches {
+        if let Some(known) = known.first().zip(shares.first()) {
+            pass.act_along(bodies, known, branches.all());
         }
-        let mut dampers = T::Dampers::of(Damper::<P>::idle());
-        let (mut count, mut kick, time) = (0, P::Real::ZERO, pass.time());
-        let branches;
-        {
-            let Some(seen) = pass.seen(bodies) else { continue };
-            if T::INNER {
-                kick = law.kick(&seen, time, state);
-                if !reverse {
-                    law.drive(&seen, [time, kick], state);
-                }
-            }
-            law.dampers(&seen, state, &mut |damper| {
-                if let Some(place) = dampers.as_mut().get_mut(count) {
-                    *place = damper;
-                    count += 1;
-                }
-            });
-            branches = Branches::of(law, &seen, state);
-        }
-        let known = dampers.as_ref().get(..count).unwrap_or_default();
-        if T::BRANCHES > 0 {
-            if let Some(known) = known.first().zip(shares.as_ref().first()) {
-                pass.act_along(bodies, known, branches.all());
-            }
-            continue;
-        }
-        if !T::INNER {
-            pass.act(bodies, T::TURNS, known, shares.as_ref(), None);
-            continue;
-        }
-        let mut inner = law.inner(state, kick);
-        pass.act(bodies, T::TURNS, known, shares.as_ref(), Some(&mut inner));
-        law.set_inner(inner.rate, state);
+        return;
+    }
+    let mut own = if inner { row.inner(kick) } else { None };
+    pass.act(bodies, row.turns(), known, shares, own.as_mut());
+    if let Some(own) = own {
+        row.set_inner(own.rate);
         if reverse && let Some(seen) = pass.seen(bodies) {
-            law.drive(&seen, [time, kick], state);
+            row.drive(&seen, [time, kick]);
         }
     }
 }
 
-/// Passes a row to `look`.
-pub fn look<P: Geometry, T: Interaction<P>>(
-    rows: &[T],
-    row: usize,
-    states: &[T::State],
-    look: &mut dyn FnMut(&dyn Row<P>),
-) {
-    if let (Some(law), Some(state)) = (rows.get(row), states.get(row)) {
-        look(&Known { law, state });
-    }
+/// A law with its memory.
+#[inline(always)]
+pub fn row<'s, P: Geometry, T: Interaction<P>>(
+    law: &'s T,
+    state: &'s mut T::State,
+) -> impl Row<P> + use<'s, P, T> {
+    Known { law, state }
 }
 
 /// Visits the words of memories.
@@ -202,49 +160,75 @@ impl WordSource for Source<'_> {
 /// A row with its memory.
 struct Known<'s, T, S> {
     law: &'s T,
-    state: &'s S,
-}
-
-impl<T, S: Copy> Known<'_, T, S> {
-    /// Its memory with what it keeps of a pose.
-    fn at<P: Geometry>(&self, seen: &Seen<'_, P>) -> S
-    where
-        T: Interaction<P, State = S>,
-    {
-        let mut state = *self.state;
-        self.law.keep_pose(seen, &mut state);
-        state
-    }
+    state: &'s mut S,
 }
 
 impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
+    #[inline(always)]
     fn name(&self) -> &'static str {
         T::NAME
     }
+    #[inline(always)]
     fn bodies(&self) -> [BodyIndex; 2] {
         self.law.bodies()
     }
-    fn dampers(&self) -> usize {
-        T::Dampers::COUNT
+    fn seen<'s>(&mut self, at: Instant<'s, P>) -> Option<Seen<'s, P>> {
+        let seen = at.seen(self.law.bodies())?;
+        self.law.keep_pose(&seen, self.state);
+        Some(seen)
     }
+    #[inline(always)]
+    fn update(&mut self, seen: &Seen<'_, P>, act: Act<'_, P>) {
+        let Self { law, state } = self;
+        if T::BEARS && act.settle {
+            law.bear(seen, act.groups.force(law.group()), state);
+        }
+        if T::ADVANCES
+            && let Some(h) = act.advance
+        {
+            law.advance(seen, h, state);
+        }
+        if act.settle {
+            if !(T::ADVANCE_SETTLES && act.advance.is_some()) {
+                law.settle(seen, state);
+            }
+        } else {
+            law.keep_pose(seen, state);
+        }
+    }
+    #[inline(always)]
+    fn keeps(&self) -> bool {
+        T::KEEPS
+    }
+    #[inline(always)]
+    fn keep_pose(&mut self, seen: &Seen<'_, P>) {
+        self.law.keep_pose(seen, self.state);
+    }
+    #[inline(always)]
+    fn is_idle(&self) -> bool {
+        self.law.is_idle(self.state)
+    }
+    #[inline(always)]
     fn force_pair(&self, seen: &Seen<'_, P>) -> Option<ForcePair<P::Space>> {
-        self.law.force_pair(seen, &self.at(seen))
+        self.law.force_pair(seen, self.state)
     }
     fn energy(&self, seen: &Seen<'_, P>) -> P::Real {
-        self.law.energy(seen, &self.at(seen))
+        self.law.energy(seen, self.state)
     }
     fn tangent(&self, seen: &Seen<'_, P>, visit: Springs<'_, P>) -> [P::Real; 2] {
-        self.law.tangent(seen, &self.at(seen), visit)
+        self.law.tangent(seen, self.state, visit)
     }
+    #[inline(always)]
     fn most_branches(&self) -> usize {
         T::BRANCHES
     }
     fn branch_bodies(&self, visit: &mut dyn FnMut([BodyIndex; 2])) {
         self.law.branch_bodies(visit);
     }
+    #[inline(always)]
     fn each_branch(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Branch<P>)) {
         let mut count = 0;
-        self.law.branches(seen, &self.at(seen), &mut |branch| {
+        self.law.branches(seen, self.state, &mut |branch| {
             visit(count, &branch);
             count += 1;
         });
@@ -255,26 +239,53 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
         seen: &Seen<'_, P>,
         visit: Springs<'_, P>,
     ) -> [P::Real; 2] {
-        self.law.branch_tangent(branch, seen, &self.at(seen), visit)
+        self.law.branch_tangent(branch, seen, self.state, visit)
     }
+    #[inline(always)]
+    fn dampers(&self) -> usize {
+        T::Dampers::COUNT
+    }
+    #[inline(always)]
+    fn is_damped(&self) -> bool {
+        T::Dampers::COUNT > 0 && self.law.is_damped()
+    }
+    #[inline(always)]
+    fn turns(&self) -> bool {
+        T::TURNS
+    }
+    #[inline(always)]
     fn each_damper(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Damper<P>)) {
         let mut count = 0;
-        self.law.dampers(seen, &self.at(seen), &mut |damper| {
+        self.law.dampers(seen, self.state, &mut |damper| {
             visit(count, &damper);
             count += 1;
         });
     }
+    #[inline(always)]
     fn drives(&self) -> bool {
         T::DRIVES
     }
-    fn inner(&self) -> Option<Inner<P::Real>> {
-        T::INNER.then(|| self.law.inner(self.state, P::Real::ZERO))
+    #[inline(always)]
+    fn inner(&self, kick: P::Real) -> Option<Inner<P::Real>> {
+        if T::INNER { Some(self.law.inner(self.state, kick)) } else { None }
+    }
+    #[inline(always)]
+    fn set_inner(&mut self, rate: P::Real) {
+        self.law.set_inner(rate, self.state);
+    }
+    #[inline(always)]
+    fn kick(&mut self, seen: &Seen<'_, P>, h: P::Real) -> P::Real {
+        self.law.kick(seen, h, self.state)
+    }
+    #[inline(always)]
+    fn drive(&mut self, seen: &Seen<'_, P>, time_and_kick: [P::Real; 2]) {
+        self.law.drive(seen, time_and_kick, self.state);
     }
     fn inner_square(&self) -> P::Real {
         self.law.inner_square()
     }
     fn supply(&self, seen: &Seen<'_, P>) -> P::Real {
-        self.law.supply(seen, &self.at(seen))
+        self.law.supply(seen, self.state)
     }
     fn loss(&self) -> P::Real {
         self.law.loss(self.state)
@@ -282,11 +293,14 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
     fn driven_rate(&self, seen: &Seen<'_, P>) -> P::Real {
         self.law.driven_rate(seen)
     }
+    fn turn(&mut self, turn: &mut dyn FnMut(usize, [f64; 3]) -> [f64; 3]) {
+        T::turn(self.state, turn);
+    }
     fn quantities(&self) -> &'static [Quantity] {
         T::QUANTITIES
     }
     fn read(&self, quantity: usize, seen: &Seen<'_, P>) -> P::Real {
-        self.law.read(quantity, seen, &self.at(seen))
+        self.law.read(quantity, seen, self.state)
     }
     fn visit(&self, visitor: &mut dyn WordVisitor) {
         self.law.visit(visitor);

@@ -61,7 +61,7 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
     let at = Instant { frames: places.frames, bodies, signals: places.signals };
     model.laws.look_at_all(memories, &mut |row, law| {
         let ends = law.bodies();
-        let Some(seen) = at.seen(ends) else { return };
+        let Some(seen) = law.seen(at) else { return };
         if law.most_branches() > 0 {
             return along(law, &seen, (matrix_weights, places.frames), system);
         }

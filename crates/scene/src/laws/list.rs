@@ -6,13 +6,14 @@
 
 use std::any::TypeId;
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 use dbd_kernel::damping::Share;
 use dbd_kernel::forces::Wrench;
-use dbd_kernel::laws::{Act, DamperPass, Instant, Laws, Need, Row};
+use dbd_kernel::laws::{self, Act, Damper, DamperPass, Instant, Laws, Need, Row};
 use dbd_kernel::words::{Word, WordSource, WordVisitor};
-use dbd_kernel::{BodyIndex, Geometry};
+use dbd_kernel::{BodyIndex, Geometry, Real as _};
 
 use crate::laws::rows::{Rows, of_bits};
 use crate::laws::source::SourceRows;
@@ -28,6 +29,38 @@ pub struct LawList<P: Geometry> {
 struct Table<P: Geometry> {
     rows: Arc<dyn Rows<P>>,
     source: Arc<dyn SourceRows>,
+    /// A row's memory at t = 0.
+    initial: Vec<Word>,
+    first: First,
+}
+
+/// A table's first row, the first word of its memories and the first of its dampers, over all tables.
+#[derive(Clone, Copy, Default)]
+struct First {
+    row: usize,
+    word: usize,
+    damper: usize,
+}
+
+impl<P: Geometry> Table<P> {
+    /// The words of a row's memory among those of all tables.
+    fn words(&self, row: usize) -> Range<usize> {
+        let from = self.first.word + row * self.initial.len();
+        from..from + self.initial.len()
+    }
+
+    /// Passes a row with its memory to `act`.
+    fn act(&self, row: usize, states: &mut [Word], act: &mut dyn FnMut(&mut dyn Row<P>)) {
+        if let Some(words) = states.get_mut(self.words(row)) {
+            self.rows.act(row, words, act);
+        }
+    }
+
+    /// The dampers of a row among those of all tables.
+    fn dampers(&self, row: usize) -> Range<usize> {
+        let from = self.first.damper + row * self.rows.dampers();
+        from..from + self.rows.dampers()
+    }
 }
 
 impl<P: Geometry> Default for LawList<P> {
@@ -56,12 +89,17 @@ impl<P: Geometry> LawList<P> {
     /// The tables in this precision; none where the laws are not compiled for it (lanes, and precisions used for
     /// comparison only).
     pub(crate) fn of(sources: &[Arc<dyn SourceRows>]) -> Self {
-        let table = |source: &Arc<dyn SourceRows>| {
+        let mut next = First::default();
+        let mut table = |source: &Arc<dyn SourceRows>| {
             let rows = source.in_precision(TypeId::of::<P>())?;
-            let rows = rows.downcast::<Arc<dyn Rows<P>>>().ok()?;
-            Some(Table { rows: *rows, source: source.clone() })
+            let rows = *rows.downcast::<Arc<dyn Rows<P>>>().ok()?;
+            let (first, initial, count) = (next, rows.initial(), rows.count());
+            next.row += count;
+            next.word += count * initial.len();
+            next.damper += count * rows.dampers();
+            Some(Table { rows, source: source.clone(), initial, first })
         };
-        Self { tables: sources.iter().map(table).collect::<Option<_>>().unwrap_or_default() }
+        Self { tables: sources.iter().map(&mut table).collect::<Option<_>>().unwrap_or_default() }
     }
 
     /// The same in another precision.
@@ -114,35 +152,33 @@ impl<P: Geometry> LawList<P> {
         states: &mut [Word],
         turn: &mut dyn FnMut(BodyIndex, [f64; 3]) -> [f64; 3],
     ) {
-        for (table, [_, from, _]) in self.each() {
-            if let Some(words) = states.get_mut(from..) {
-                table.rows.turn(words, turn);
+        for table in &self.tables {
+            for row in 0..table.rows.count() {
+                table.act(row, states, &mut |law| {
+                    let bodies = law.bodies();
+                    law.turn(&mut |end, v| turn(bodies[end], v));
+                });
             }
         }
     }
 
-    /// Table and row of each row over all tables, with the start indices of its words and its damper fractions.
-    fn each(&self) -> impl Iterator<Item = (&Table<P>, [usize; 3])> {
-        let mut next = [0; 3];
-        self.tables.iter().map(move |table| {
-            let here = next;
-            let rows = table.rows.count();
-            next[0] += rows;
-            next[1] += rows * table.rows.words();
-            next[2] += rows * table.rows.dampers();
-            (table, here)
-        })
+    /// The table of a row, and the row in it.
+    fn table_of(&self, row: usize) -> Option<(&Table<P>, usize)> {
+        let place = |table: &Table<P>| row.checked_sub(table.first.row);
+        let of = |table| place(table).filter(|row| *row < table.rows.count());
+        self.tables.iter().find_map(|table| Some((table, of(table)?)))
     }
 }
 
 impl<P: Geometry> Laws<P> for LawList<P> {
     type States = Vec<Word>;
     type Shares = Vec<Share<P::Real>>;
-    const EMPTY: bool = false;
-    const DAMPED: bool = true;
-    const TURNS: bool = true;
-    const PUSHES: bool = true;
-    const ADVANCES: bool = true;
+    // No law is compiled for lanes.
+    const EMPTY: bool = !P::Real::ONE_LANE;
+    const DAMPED: bool = P::Real::ONE_LANE;
+    const TURNS: bool = P::Real::ONE_LANE;
+    const PUSHES: bool = P::Real::ONE_LANE;
+    const ADVANCES: bool = P::Real::ONE_LANE;
 
     fn count(&self) -> usize {
         self.tables.iter().map(|table| table.rows.count()).sum()
@@ -154,7 +190,7 @@ impl<P: Geometry> Laws<P> for LawList<P> {
         self.tables.iter().any(|table| table.rows.is_driven())
     }
     fn states(&self) -> Vec<Word> {
-        self.tables.iter().flat_map(|table| table.rows.initial()).collect()
+        self.tables.iter().flat_map(|table| table.initial.repeat(table.rows.count())).collect()
     }
     fn shares(&self) -> Self::Shares {
         let count = |table: &Table<P>| table.rows.count() * table.rows.dampers();
@@ -167,9 +203,12 @@ impl<P: Geometry> Laws<P> for LawList<P> {
         act: Act<'_, P>,
         wrenches: &mut [Wrench<P::Space>],
     ) -> Result<(), usize> {
-        for (table, [before, from, _]) in self.each() {
-            let Some(words) = states.get_mut(from..) else { return Err(before) };
-            table.rows.act(at, words, act, wrenches).map_err(|row| before + row)?;
+        for table in &self.tables {
+            for row in 0..table.rows.count() {
+                let mut done = None;
+                table.act(row, states, &mut |law| done = laws::act(law, at, act, wrenches));
+                done.ok_or(table.first.row + row)?;
+            }
         }
         Ok(())
     }
@@ -180,25 +219,30 @@ impl<P: Geometry> Laws<P> for LawList<P> {
         shares: &Self::Shares,
         pass: &mut dyn DamperPass<P>,
     ) {
-        let tables: Vec<_> = self.each().filter(|(table, _)| table.rows.dampers() > 0).collect();
-        let mut act = |(table, [_, words, first]): &(&Table<P>, [usize; 3])| {
-            if let (Some(words), Some(shares)) = (states.get_mut(*words..), shares.get(*first..)) {
-                table.rows.sweep(reverse, words, shares, pass);
+        // The words of a memory keep nothing of a pose.
+        let order = [reverse, false];
+        let descending =
+            |count: usize, place: usize| if reverse { count - 1 - place } else { place };
+        for place in 0..self.tables.len() {
+            let table = &self.tables[descending(self.tables.len(), place)];
+            let (rows, count) = (table.rows.count(), table.rows.dampers());
+            if count == 0 {
+                continue;
             }
-        };
-        if reverse {
-            tables.iter().rev().for_each(&mut act);
-        } else {
-            tables.iter().for_each(&mut act);
+            let mut dampers = vec![Damper::idle(); count];
+            for row in (0..rows).map(|row| descending(rows, row)) {
+                let Some(shares) = shares.get(table.dampers(row)) else { break };
+                table.act(row, states, &mut |law| {
+                    laws::sweep(law, order, shares, &mut dampers, pass);
+                });
+            }
         }
     }
-    fn look(&self, row: usize, states: &Vec<Word>, look: &mut dyn FnMut(&dyn Row<P>)) {
-        for (table, [before, words, _]) in self.each() {
-            if (before..before + table.rows.count()).contains(&row)
-                && let Some(words) = states.get(words..)
-            {
-                return table.rows.look(row - before, words, look);
-            }
+    fn look(&self, row: usize, states: &Vec<Word>, look: &mut dyn FnMut(&mut dyn Row<P>)) {
+        if let Some((table, row)) = self.table_of(row)
+            && let Some(words) = states.get(table.words(row))
+        {
+            table.rows.act(row, &mut words.to_vec(), look);
         }
     }
     fn share_mut<'s>(
@@ -207,13 +251,8 @@ impl<P: Geometry> Laws<P> for LawList<P> {
         row: usize,
         damper: usize,
     ) -> Option<&'s mut Share<P::Real>> {
-        let of = |(table, [before, _, first]): (&Table<P>, [usize; 3])| {
-            let here = (before..before + table.rows.count()).contains(&row);
-            (here && damper < table.rows.dampers())
-                .then(|| first + (row - before) * table.rows.dampers() + damper)
-        };
-        let place = self.each().find_map(of)?;
-        shares.get_mut(place)
+        let (table, row) = self.table_of(row)?;
+        shares.get_mut(table.dampers(row).nth(damper)?)
     }
     fn visit(states: &Vec<Word>, visitor: &mut dyn WordVisitor) {
         states.iter().for_each(|word| visitor.word(*word));

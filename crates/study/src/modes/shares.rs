@@ -120,7 +120,7 @@ fn law_powers(
     let instant = Instant { frames: &frames, bodies: &state.bodies, signals: &state.signals };
     let mut powers = Vec::new();
     model.laws.look_at_all(&state.laws, &mut |_, law| {
-        let seen = instant.seen(law.bodies());
+        let seen = law.seen(instant);
         let force_pair = seen.as_ref().and_then(|seen| law.force_pair(seen));
         let along = |body: BodyIndex, force: Vec3<f64>, torque: Vec3<f64>| {
             let Some([x, y, z, a, b, c]) = motion.get(body.row()).copied() else { return 0.0 };
