@@ -8,7 +8,7 @@ use crate::body::Body;
 use crate::elements::gravity;
 use crate::forces::{
     At, Dampers, DampersLeft, Evaluation, ExplicitDampers, Instant, Memories, Wrench,
-    evaluate_out_of_line, force_pair, push_loads_and_inputs, wrenches,
+    evaluate_out_of_line, force_pair_out_of_line, push_loads_and_inputs, wrenches,
 };
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
@@ -85,8 +85,8 @@ pub fn power<M: ModelOwner>(
         let rate = End::new(&view, places, anchor, None).velocity;
         let on = (bodies, &[][..]);
         let records = [
-            force_pair::<_, _, ExplicitDampers>(&view, places, on, group),
-            force_pair::<_, _, DampersLeft>(&view, places, on, group),
+            force_pair_out_of_line::<_, _, ExplicitDampers>(&view, places, on, group),
+            force_pair_out_of_line::<_, _, DampersLeft>(&view, places, on, group),
         ];
         for (sum, force_pair) in ground.iter_mut().zip(records) {
             let Some(force_pair) = force_pair else { continue };

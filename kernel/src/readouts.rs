@@ -325,7 +325,7 @@ fn force<P: Geometry, T: Terms<P>>(
     (row, group): (usize, &Group),
 ) -> P::Vector {
     let force_pair =
-        forces::force_pair::<P, T, ExplicitDampers>(view, places, (bodies, &[]), group)
+        forces::force_pair_out_of_line::<P, T, ExplicitDampers>(view, places, (bodies, &[]), group)
             .unwrap_or(ForcePair::ZERO);
     -forces::with_actuators(view, places, row, force_pair.force)
 }

@@ -214,6 +214,17 @@ pub(crate) fn force_pair<P: Geometry, T: Terms<P>, D: Dampers>(
     }
 }
 
+/// [`force_pair`] for callers outside a step and for laws: compiled once for all of them.
+#[inline(never)]
+pub(crate) fn force_pair_out_of_line<P: Geometry, T: Terms<P>, D: Dampers>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    known: (&[BodyState<P>], &[P::Rest]),
+    group: &Group,
+) -> Option<ForcePair<P::Space>> {
+    force_pair::<P, T, D>(model, places, known, group)
+}
+
 /// The forces of the groups of a model at a pose, for laws that bear one.
 struct Groups<'s, 'm, P: Geometry, T: Terms<P>> {
     model: &'s ModelRef<'m, P, T>,
@@ -224,8 +235,9 @@ struct Groups<'s, 'm, P: Geometry, T: Terms<P>> {
 impl<P: Geometry, T: Terms<P>> laws::GroupForces<P> for Groups<'_, '_, P, T> {
     fn force(&self, group: u16) -> P::Vector {
         let Some(group) = self.model.groups.get(usize::from(group)) else { return P::Vector::ZERO };
-        let known = (&[][..], self.rests);
-        let force_pair = force_pair::<P, T, DampersLeft>(self.model, self.places, known, group);
+        let (places, known) = (self.places, (&[][..], self.rests));
+        let force_pair =
+            force_pair_out_of_line::<P, T, DampersLeft>(self.model, places, known, group);
         force_pair.map_or(P::Vector::ZERO, |force_pair| -force_pair.force)
     }
 }

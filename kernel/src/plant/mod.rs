@@ -60,8 +60,11 @@ where
             return Err(PlantError::Plan);
         }
         let mut kept = S::Storage::memory(&*base.model);
-        if !matches!(S::DAMPING, Damping::Explicit | Damping::Implicit) && base.is_damped() {
-            if S::DAMPING == Damping::JointWise {
+        // Constants: a plant of another scheme contains none of it.
+        if const { !matches!(S::DAMPING, Damping::Explicit | Damping::Implicit) }
+            && base.is_damped()
+        {
+            if const { matches!(S::DAMPING, Damping::JointWise) } {
                 base.find_modes(kept.modes.as_mut());
             }
             base.find_shares(kept.modes.as_mut());
