@@ -176,15 +176,17 @@ fn least_squares(mut columns: Vec<Vec<f64>>, mut targets: Vec<f64>) -> Vec<f64> 
 /// last.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (a, b) = (&a[..a.len().min(b.len())], &b[..a.len().min(b.len())]);
-    let mut sums = [0.0; 4];
-    let (heads, tails) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest = heads.remainder().iter().zip(tails.remainder()).fold(0.0, |sum, (a, b)| sum + a * b);
-    for (a, b) in heads.zip(tails) {
-        for k in 0..4 {
-            sums[k] += a[k] * b[k];
-        }
+    let ((heads, rest), (tails, other_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    let rest = rest.iter().zip(other_rest).fold(0.0, |sum, (a, b)| sum + a * b);
+    let (mut s0, mut s1, mut s2, mut s3) = (0.0, 0.0, 0.0, 0.0);
+    // Without an index: fast also where little is inlined.
+    for ([a0, a1, a2, a3], [b0, b1, b2, b3]) in heads.iter().zip(tails) {
+        s0 += a0 * b0;
+        s1 += a1 * b1;
+        s2 += a2 * b2;
+        s3 += a3 * b3;
     }
-    ((sums[0] + sums[1]) + (sums[2] + sums[3])) + rest
+    ((s0 + s1) + (s2 + s3)) + rest
 }
 
 #[cfg(test)]
