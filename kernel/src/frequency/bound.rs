@@ -143,9 +143,9 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
             if law.most_branches() > 0
                 && let Some(seen) = law.seen(at)
             {
-                law.each_branch(&seen, &mut |place, branch| {
+                for (place, branch) in law.branches(&seen).iter().enumerate() {
                     visit(Mount::Branch(row, place), branch.bodies);
-                });
+                }
             }
         });
     }
@@ -250,8 +250,9 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                     let Some(seen) = law.seen(self.at()) else { return };
                     let (end, share): (_, P::Real) = self.end_of(ends, here);
                     // (Σ rᵢ)² ≤ n·Σ rᵢ²: a spring along n directions counts at most n times each.
-                    let mut terms = P::Real::ONE;
-                    law.each_branch(&seen, &mut |_, _| terms = terms + P::Real::ONE);
+                    let branches = law.branches(&seen);
+                    let mut terms =
+                        branches.iter().fold(P::Real::ONE, |terms, _| terms + P::Real::ONE);
                     let turned = law.tangent(&seen, &mut |stiffness, direction| {
                         let moment = direction.moments[end];
                         let stiffness = share * stiffness * terms;
@@ -268,14 +269,9 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                     first.get_or_insert(stiffness);
                 });
                 let Some(stiffness) = first else { return };
-                let (mut terms, mut found) = (P::Real::ONE, None);
-                law.each_branch(&seen, &mut |number, branch| {
-                    terms = terms + P::Real::ONE;
-                    if number == place {
-                        found = Some(*branch);
-                    }
-                });
-                let Some(branch) = found else { return };
+                let branches = law.branches(&seen);
+                let terms = branches.iter().fold(P::Real::ONE, |terms, _| terms + P::Real::ONE);
+                let Some(branch) = branches.iter().nth(place) else { return };
                 let (end, share): (_, P::Real) = self.end_of(branch.bodies, here);
                 let mut add = |stiffness: P::Real, direction: &Direction<P::Space>| {
                     let moment = direction.moments[end];

@@ -5,26 +5,24 @@ use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::branch::{Branch, MAX_BRANCHES};
 use crate::laws::end::Seen;
-use crate::laws::row::Row;
+use crate::laws::interaction::Interaction;
 use crate::real::Real as _;
 
 /// The branches of a law at a pose.
-pub(super) struct Branches<P: Geometry>([Option<Branch<P>>; MAX_BRANCHES]);
+pub struct Branches<P: Geometry>([Option<Branch<P>>; MAX_BRANCHES]);
 
 impl<P: Geometry> Branches<P> {
-    /// Those of a law; `None` for a law that has none.
+    /// Those of a law.
     #[inline(always)]
-    pub(super) fn of<R: Row<P> + ?Sized>(row: &R, seen: &Seen<'_, P>) -> Option<Self> {
-        if row.most_branches() == 0 {
-            return None;
-        }
+    pub(super) fn of<T: Interaction<P>>(law: &T, seen: &Seen<'_, P>, state: &T::State) -> Self {
         let mut all = [None; MAX_BRANCHES];
-        row.each_branch(seen, &mut |place, branch| {
-            if let Some(place) = all.get_mut(place) {
-                *place = Some(*branch);
+        let mut places = all.iter_mut();
+        law.branches(seen, state, &mut |branch| {
+            if let Some(place) = places.next() {
+                *place = Some(branch);
             }
         });
-        Some(Self(all))
+        Self(all)
     }
 
     /// In order, the present ones first.
@@ -33,8 +31,9 @@ impl<P: Geometry> Branches<P> {
         &self.0
     }
 
+    /// In order.
     #[inline(always)]
-    fn iter(&self) -> impl Iterator<Item = &Branch<P>> {
+    pub fn iter(&self) -> impl Iterator<Item = &Branch<P>> {
         self.0.iter().flatten()
     }
 

@@ -140,9 +140,8 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
             else {
                 break;
             };
-            let mut dampers = T::Dampers::of(Damper::idle());
-            let row = &mut slice::row(law, state);
-            slice::sweep(row, order, shares.as_ref(), dampers.as_mut(), pass);
+            let room = || T::Dampers::of(Damper::idle());
+            slice::sweep(&mut slice::row(law, state), order, shares.as_ref(), room, pass);
         }
     }
     fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&mut dyn Row<P>)) {

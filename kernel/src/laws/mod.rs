@@ -69,6 +69,7 @@ mod wheel_contact;
 
 pub use actuator::{Actuated, HingeActuator, SlideActuator};
 pub use branch::{Branch, MAX_BRANCHES};
+pub use branches::Branches;
 pub use bushing::Bushing;
 pub use bushing_curves::BushingCurves;
 pub use bushing_matrix::BushingMatrix;

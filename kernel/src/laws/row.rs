@@ -5,6 +5,7 @@ use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::laws::branch::Branch;
+use crate::laws::branches::Branches;
 use crate::laws::end::{Instant, Seen};
 use crate::laws::interaction::{Damper, Inner, Quantity, Springs};
 use crate::words::WordVisitor;
@@ -90,7 +91,7 @@ pub trait Row<P: Geometry> {
     /// [`Interaction::branch_bodies`](crate::laws::Interaction::branch_bodies).
     fn branch_bodies(&self, visit: &mut dyn FnMut([BodyIndex; 2]));
     /// [`Interaction::branches`](crate::laws::Interaction::branches).
-    fn each_branch(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Branch<P>));
+    fn branches(&self, seen: &Seen<'_, P>) -> Branches<P>;
     /// [`Interaction::branch_tangent`](crate::laws::Interaction::branch_tangent).
     fn branch_tangent(
         &self,

@@ -4,7 +4,6 @@ use crate::elements::share::Share;
 use crate::force_pair::{ForcePair, Wrench, apply};
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
-use crate::laws::branch::Branch;
 use crate::laws::branches::Branches;
 use crate::laws::end::{Instant, Seen};
 use crate::laws::interaction::{Damper, Inner, Interaction, Need, Quantity, Springs};
@@ -25,7 +24,7 @@ pub fn act<P: Geometry, R: Row<P> + ?Sized>(
     let Some(seen) = at.seen(bodies) else { return Some(()) };
     row.update(&seen, act);
     let mut force_pair = row.force_pair(&seen)?;
-    let mut branches = Branches::of(row, &seen);
+    let mut branches = (row.most_branches() > 0).then(|| row.branches(&seen));
     if act.damped && row.dampers() > 0 {
         let own = row.inner(P::Real::ZERO);
         row.each_damper(&seen, &mut |_, damper| {
@@ -52,13 +51,13 @@ pub fn act<P: Geometry, R: Row<P> + ?Sized>(
 }
 
 /// Applies the dampers of a row, in the second half of a step with `reverse`; `kept` where [`act`] was called at this pose
-/// with the same memory. `dampers` has room for all of them.
+/// with the same memory. `room` has room for all of them.
 #[inline(always)]
-pub fn sweep<P: Geometry, R: Row<P> + ?Sized>(
+pub fn sweep<P: Geometry, R: Row<P> + ?Sized, D: AsMut<[Damper<P>]>>(
     row: &mut R,
     [reverse, kept]: [bool; 2],
     shares: &[Share<P::Real>],
-    dampers: &mut [Damper<P>],
+    room: impl FnOnce() -> D,
     pass: &mut dyn DamperPass<P>,
 ) {
     if !row.is_damped() {
@@ -75,6 +74,9 @@ pub fn sweep<P: Geometry, R: Row<P> + ?Sized>(
     }
     let (mut count, mut kick, time) = (0, P::Real::ZERO, pass.time());
     let inner = row.inner(kick).is_some();
+    // Made only here: an idle row does without.
+    let mut room = room();
+    let dampers = room.as_mut();
     let branches;
     {
         let Some(seen) = pass.seen(bodies) else { return };
@@ -90,7 +92,7 @@ pub fn sweep<P: Geometry, R: Row<P> + ?Sized>(
                 count += 1;
             }
         });
-        branches = Branches::of(row, &seen);
+        branches = (row.most_branches() > 0).then(|| row.branches(&seen));
     }
     let known = dampers.get(..count).unwrap_or_default();
     if let Some(branches) = branches {
@@ -226,12 +228,8 @@ impl<P: Geometry, T: Interaction<P>> Row<P> for Known<'_, T, T::State> {
         self.law.branch_bodies(visit);
     }
     #[inline(always)]
-    fn each_branch(&self, seen: &Seen<'_, P>, visit: &mut dyn FnMut(usize, &Branch<P>)) {
-        let mut count = 0;
-        self.law.branches(seen, self.state, &mut |branch| {
-            visit(count, &branch);
-            count += 1;
-        });
+    fn branches(&self, seen: &Seen<'_, P>) -> Branches<P> {
+        Branches::of(self.law, seen, self.state)
     }
     fn branch_tangent(
         &self,

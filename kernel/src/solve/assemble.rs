@@ -96,7 +96,7 @@ fn along<P: Geometry>(
     let Some((stiffness, direction)) = own else { return };
     let mut far = Far::<P>::default();
     far.add(law.bodies(), &direction);
-    law.each_branch(seen, &mut |_, branch| far.add(branch.bodies, &branch.direction));
+    law.branches(seen).iter().for_each(|branch| far.add(branch.bodies, &branch.direction));
     let weight = matrix_weights.weight(stiffness, damping);
     let row = |held: &FarHeld<P>| {
         let moment = frames.get(held.row).map(|frame| P::moment_to_world(frame, held.moment));

@@ -233,7 +233,7 @@ impl<P: Geometry> Laws<P> for LawList<P> {
             for row in (0..rows).map(|row| descending(rows, row)) {
                 let Some(shares) = shares.get(table.dampers(row)) else { break };
                 table.act(row, states, &mut |law| {
-                    laws::sweep(law, order, shares, &mut dampers, pass);
+                    laws::sweep(law, order, shares, || &mut dampers[..], pass);
                 });
             }
         }

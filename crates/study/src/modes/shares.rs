@@ -133,10 +133,10 @@ fn law_powers(
         };
         let mut sum = force_pair.map_or(0.0, |force_pair| power(law.bodies(), &force_pair));
         if let Some(seen) = &seen {
-            law.each_branch(seen, &mut |_, branch| {
-                let Some(seen) = seen.between(branch.bodies) else { return };
+            for branch in law.branches(seen).iter() {
+                let Some(seen) = seen.between(branch.bodies) else { continue };
                 sum += power(branch.bodies, &seen.pull(&branch.direction, branch.tension));
-            });
+            }
         }
         powers.push(sum);
     });
