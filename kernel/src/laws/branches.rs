@@ -16,12 +16,14 @@ impl<P: Geometry> Branches<P> {
     #[inline(always)]
     pub(super) fn of<T: Interaction<P>>(law: &T, seen: &Seen<'_, P>, state: &T::State) -> Self {
         let mut all = [None; MAX_BRANCHES];
-        let mut places = all.iter_mut();
-        law.branches(seen, state, &mut |branch| {
-            if let Some(place) = places.next() {
-                *place = Some(branch);
-            }
-        });
+        if T::BRANCHES > 0 {
+            let mut places = all.iter_mut();
+            law.branches(seen, state, &mut |branch| {
+                if let Some(place) = places.next() {
+                    *place = Some(branch);
+                }
+            });
+        }
         Self(all)
     }
 

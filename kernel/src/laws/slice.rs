@@ -24,7 +24,8 @@ pub fn act<P: Geometry, R: Row<P> + ?Sized>(
     let Some(seen) = at.seen(bodies) else { return Some(()) };
     row.update(&seen, act);
     let mut force_pair = row.force_pair(&seen)?;
-    let mut branches = (row.most_branches() > 0).then(|| row.branches(&seen));
+    let branching = row.most_branches() > 0;
+    let mut branches = row.branches(&seen);
     if act.damped && row.dampers() > 0 {
         let own = row.inner(P::Real::ZERO);
         row.each_damper(&seen, &mut |_, damper| {
@@ -32,19 +33,19 @@ pub fn act<P: Geometry, R: Row<P> + ?Sized>(
             if let Some(own) = own {
                 rate = rate + damper.inner() * own.rate;
             }
-            if let Some(branches) = &branches {
+            if branching {
                 rate = rate + branches.rate(&seen);
             }
             let tension = damper.tension(rate);
             force_pair = force_pair.with(&seen.pull(&damper.direction, tension));
-            if let Some(branches) = &mut branches {
+            if branching {
                 branches.pull(tension);
             }
         });
     }
     let [a, b] = bodies.map(BodyIndex::row);
     apply(wrenches, a, b, &force_pair);
-    if let Some(branches) = branches {
+    if branching {
         branches.apply(&seen, wrenches);
     }
     Some(())
@@ -92,10 +93,10 @@ pub fn sweep<P: Geometry, R: Row<P> + ?Sized, D: AsMut<[Damper<P>]>>(
                 count += 1;
             }
         });
-        branches = (row.most_branches() > 0).then(|| row.branches(&seen));
+        branches = row.branches(&seen);
     }
     let known = dampers.get(..count).unwrap_or_default();
-    if let Some(branches) = branches {
+    if row.most_branches() > 0 {
         if let Some(known) = known.first().zip(shares.first()) {
             pass.act_along(bodies, known, branches.all());
         }
