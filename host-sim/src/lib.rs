@@ -5,7 +5,6 @@
 //!
 //! - [`terminal`]: scenes by name, text out, exit codes.
 //! - [`simulate`]: a planned run, sample by sample.
-//! - [`compliance`]: deflections of joints under the forces at t = 0.
 //! - [`report`]: the results of a run: trace, summary, page.
 //! - [`recorded`]: recorded runs, read back.
 //! - [`comparison`]: comparison of two of them.
@@ -23,7 +22,6 @@ pub mod arguments;
 pub mod cli;
 pub mod commands;
 pub mod comparison;
-pub mod compliance;
 pub mod error;
 pub mod help;
 pub mod program;

@@ -7,6 +7,7 @@
 //! - [`plot`]: axes, curves and maps as SVG.
 //! - [`sweep`]: one scene, many values, one row per case.
 //! - [`modes`](mod@modes): small vibrations about a pose.
+//! - [`compliance`]: deflections of joints under the forces at t = 0.
 //! - [`stability`](mod@stability): the largest stable step of a method about a pose.
 //! - [`point`]: points and their Pareto front.
 //! - [`costs`]: counted cost of a step on the target.
@@ -38,6 +39,7 @@ pub mod advice;
 pub mod cache;
 pub mod chart;
 pub mod command;
+pub mod compliance;
 pub mod costs;
 pub mod estimate;
 pub mod files;

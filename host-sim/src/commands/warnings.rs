@@ -10,10 +10,10 @@ use dbd_plant::time::{display, rounded};
 use dbd_plant::{Frequencies, Method, Named as _, OrientationName, SchemeName};
 use dbd_scene::default_step::LARGEST_TURN;
 use dbd_scene::{ElementDamping, Facts, OneSided, Scene, Severity};
+use dbd_study::compliance::{Deformation, stretches};
 use dbd_study::limits::Limits;
 
 use crate::commands::rounding::{self, COMPOSED, named};
-use crate::compliance::{Deformation, stretches};
 
 /// h·c/μ up to which slow motion is accurate to 1 %: for interacting dampers, with all that act in parallel, on
 /// random mechanisms (`tests/dynamics/strong_dampers.rs`), and for each damper with compositions, by the table in

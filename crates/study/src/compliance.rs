@@ -8,8 +8,9 @@
 
 use dbd_kernel::{State, Vec3};
 use dbd_scene::{JointElement, Scene};
-use dbd_study::modes::weighted_forces;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+use crate::modes::weighted_forces;
 
 /// Largest number of bodies: the time grows with the third power.
 const MAX_BODIES: usize = 60;
