@@ -171,8 +171,8 @@ pub(crate) fn evaluate<P: Geometry, T: Terms<P>, D: Dampers>(
     Ok(())
 }
 
-/// [`evaluate`] for callers outside a step and for models of all kinds: compiled once for all of them, not inlined into
-/// each.
+/// [`evaluate`] for callers outside a step, which do not need its speed: compiled once for all of them, not inlined
+/// into each.
 ///
 /// # Errors
 /// As [`evaluate`].

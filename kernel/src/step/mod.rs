@@ -242,49 +242,55 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     #[inline(always)]
     pub fn evaluate<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
         if P::Real::ONE_LANE {
-            self.evaluate_apart::<D::Forces>(at)
+            self.evaluate_apart::<D::Forces>(at, false)
         } else {
-            self.evaluate_once::<D>(at, false)
+            self.evaluate_here::<D::Forces>(at, false)
         }
     }
 
     // Compiled once for all of a scheme's evaluations.
-    fn evaluate_apart<D: Dampers>(&mut self, at: At) -> Result<(), Cause> {
-        self.evaluate_once::<D>(at, false)
+    fn evaluate_apart<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
+        self.evaluate_here::<D>(at, placed)
     }
 
     /// [`Self::evaluate`] for a scheme with a single call; `placed` states whether the frames are those of the present
-    /// pose. A model of all kinds, whose evaluation is large, has one copy of it for all schemes and other callers.
+    /// pose. A model of all kinds, whose evaluation is large, has one copy of it for all schemes.
     ///
     /// # Errors
     /// As [`Self::evaluate`].
-    // Inlined for lanes: they are stepped by a function with more target features than its callees.
     #[inline(always)]
     pub(crate) fn evaluate_once<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
+        if P::Real::ONE_LANE && T::ALL {
+            self.evaluate_apart::<D::Forces>(at, placed)
+        } else {
+            self.evaluate_here::<D::Forces>(at, placed)
+        }
+    }
+
+    // Inlined for lanes: they are stepped by a function with more target features than its callees.
+    #[inline(always)]
+    fn evaluate_here<D: Dampers>(&mut self, at: At, placed: bool) -> Result<(), Cause> {
         self.cache.evaluations += 1;
         self.cache.fresh = false;
         self.cache.ready = false;
         let moved = <LawsIn<P, T> as Laws<P>>::ADVANCES && at == At::Boundary && self.cache.moved;
         let advance = if moved { Some(self.h) } else { None };
         self.cache.moved &= !moved;
-        let instant = Instant {
-            step: self.step,
-            windows: self.windows,
-            signals: self.signals,
-            bodies: self.bodies,
-            in_line: self.in_line,
-            rests: self.rests,
-            placed,
-        };
-        let memories = Memories { turns: self.turns, laws: self.law_states, at, advance };
-        let out =
-            Evaluation { frames: self.frames, wrenches: self.wrenches, unpushed: self.unpushed };
-        if P::Real::ONE_LANE && T::ALL {
-            forces::evaluate_out_of_line::<P, T, D::Forces>(&self.model, instant, memories, out)?;
-        } else {
-            forces::evaluate::<P, T, D::Forces>(&self.model, instant, memories, out)?;
-        }
-        self.cache.fresh = !D::Forces::ACT && at == At::Boundary;
+        forces::evaluate::<P, T, D>(
+            &self.model,
+            Instant {
+                step: self.step,
+                windows: self.windows,
+                signals: self.signals,
+                bodies: self.bodies,
+                in_line: self.in_line,
+                rests: self.rests,
+                placed,
+            },
+            Memories { turns: self.turns, laws: self.law_states, at, advance },
+            Evaluation { frames: self.frames, wrenches: self.wrenches, unpushed: self.unpushed },
+        )?;
+        self.cache.fresh = !D::ACT && at == At::Boundary;
         self.cache.pushed = true;
         Ok(())
     }
