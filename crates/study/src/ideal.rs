@@ -20,7 +20,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::reference::State;
-use crate::variants::{AS_IT_IS, SPATIAL, distance, variants};
+use crate::variants::{AS_IT_IS, SPATIAL, distance, sampled, variants};
 
 /// About how many samples are compared.
 const SAMPLES: u64 = 50;
@@ -142,15 +142,7 @@ impl Frame {
             return None;
         }
         let method = Method::new(scheme, None, PrecisionName::F64).ok()?;
-        let mut plant = plant(scene, &method, self.step(steps)).ok()?;
-        let mut states = vec![State::of(&plant.state())];
-        for _ in 0..self.samples {
-            if !plant.advance(self.between * steps).is_running() {
-                return None;
-            }
-            states.push(State::of(&plant.state()));
-        }
-        Some(states)
+        sampled(plant(scene, &method, self.step(steps)).ok()?, self.between * steps, self.samples)
     }
 
     /// The fewest steps per unit, from `least` on, whose errors are a third of the tolerance.

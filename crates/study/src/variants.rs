@@ -7,7 +7,7 @@
 
 use crate::reference::metric::Metric;
 use crate::reference::{Mechanism, State};
-use dbd_plant::{Method, PrecisionName, SchemeName, plant};
+use dbd_plant::{AnyPlant, Method, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -185,9 +185,18 @@ fn motion(scene: &Scene, limit: Limit, grid: &Grid) -> Option<Vec<State>> {
     // It is stable at leapfrog's steps and far more accurate.
     let method = Method::new(SchemeName::Pefrl, None, PrecisionName::F64).ok()?;
     let steps = grid.steps(FINE * limit.advised.min(scene.duration) / (1.0 - MARGIN));
-    let mut plant = plant(scene, &method, grid.step(steps)).ok()?;
+    let plant = plant(scene, &method, grid.step(steps)).ok()?;
+    sampled(plant, steps, grid.times().len() as u64 - 1)
+}
+
+/// The states of a plant now and after each `steps` steps, `samples` times; `None` where it fails.
+pub(crate) fn sampled(
+    mut plant: Box<dyn AnyPlant>,
+    steps: u64,
+    samples: u64,
+) -> Option<Vec<State>> {
     let mut states = vec![State::of(&plant.state())];
-    for _ in 1..grid.times().len() {
+    for _ in 0..samples {
         if !plant.advance(steps).is_running() {
             return None;
         }
