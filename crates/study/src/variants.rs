@@ -186,7 +186,7 @@ fn motion(scene: &Scene, limit: Limit, grid: &Grid) -> Option<Vec<State>> {
     let method = Method::new(SchemeName::Pefrl, None, PrecisionName::F64).ok()?;
     let steps = grid.steps(FINE * limit.advised.min(scene.duration) / (1.0 - MARGIN));
     let plant = plant(scene, &method, grid.step(steps)).ok()?;
-    sampled(plant, steps, grid.times().len() as u64 - 1)
+    sampled(plant, steps, grid.samples.into())
 }
 
 /// The states of a plant now and after each `steps` steps, `samples` times; `None` where it fails.

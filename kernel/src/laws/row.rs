@@ -70,7 +70,7 @@ pub trait Row<P: Geometry> {
     fn name(&self) -> &'static str;
     /// A and B.
     fn bodies(&self) -> [BodyIndex; 2];
-    /// Its ends at an instant, for callers outside a step; `None` where the second is not a body.
+    /// Its ends at an instant, whose pose it keeps: for callers outside a step. `None` where the second is not a body.
     fn seen<'s>(&mut self, at: Instant<'s, P>) -> Option<Seen<'s, P>>;
     /// Updates its memory for an evaluation: the force of a group, the step, then the pose.
     fn update(&mut self, seen: &Seen<'_, P>, act: Act<'_, P>);

@@ -52,7 +52,7 @@ pub fn act<P: Geometry, R: Row<P> + ?Sized>(
 }
 
 /// Applies the dampers of a row, in the second half of a step with `reverse`; `kept` where [`act`] was called at this pose
-/// with the same memory. `room` has room for all of them.
+/// with the same memory. `room` makes a buffer for all of them.
 #[inline(always)]
 pub fn sweep<P: Geometry, R: Row<P> + ?Sized, D: AsMut<[Damper<P>]>>(
     row: &mut R,

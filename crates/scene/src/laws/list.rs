@@ -221,16 +221,15 @@ impl<P: Geometry> Laws<P> for LawList<P> {
     ) {
         // The words of a memory keep nothing of a pose.
         let order = [reverse, false];
-        let descending =
-            |count: usize, place: usize| if reverse { count - 1 - place } else { place };
+        let ordered = |count: usize, place: usize| if reverse { count - 1 - place } else { place };
         for place in 0..self.tables.len() {
-            let table = &self.tables[descending(self.tables.len(), place)];
+            let table = &self.tables[ordered(self.tables.len(), place)];
             let (rows, count) = (table.rows.count(), table.rows.dampers());
             if count == 0 {
                 continue;
             }
             let mut dampers = vec![Damper::idle(); count];
-            for row in (0..rows).map(|row| descending(rows, row)) {
+            for row in (0..rows).map(|row| ordered(rows, row)) {
                 let Some(shares) = shares.get(table.dampers(row)) else { break };
                 table.act(row, states, &mut |law| {
                     laws::sweep(law, order, shares, || &mut dampers[..], pass);
