@@ -1,6 +1,5 @@
 //! What is said without running: `list`, `check`, `export`; and the step that `check` advises.
 
-use dbd_tests::page::{block, table};
 use host_sim::terminal::Exit;
 use serde_json::Value;
 
@@ -176,11 +175,6 @@ fn a_spin_limits_the_step() {
     };
     let (ours, long) = (loss(&[]), loss(&["--step", "16ms"]));
     assert!(ours < 1e-4 && long > 3.0 * ours, "{ours:e} {long:e}");
-    let rows = [("0.1, as advised", ours), ("0.88", long)]
-        .map(|(turn, lost)| vec![turn.to_owned(), format!("{lost:.1e}")]);
-    let head = ["rad per step", "energy lost in 10 s, in parts of it"];
-    block("docs/schemes-measured.md", "spin", &table(&head, &rows));
-
     let warned = |text: &str| text.contains("body `top` turns by 0.88 rad in a step of 16ms");
     let long = ["--step", "16ms"];
     assert!(warned(&folder.run(&scene, &long).out));

@@ -4,7 +4,6 @@ use dbd_kernel::{
     BodyState, F64, Fixed, GeneralizedAlpha, GeneralizedAlpha3, Geometry, Planar64, Plant, Scheme,
 };
 use dbd_scene::{Scene, SceneModel};
-use dbd_tests::page::{block, table};
 
 const SCHEME: GeneralizedAlpha = GeneralizedAlpha::DEFAULT;
 
@@ -83,7 +82,6 @@ fn order<P: Geometry, S: Scheme>(model: &SceneModel<P>, scheme: S, step: f64) ->
 
 #[test]
 fn it_is_of_order_2_whatever_the_damping() {
-    let mut rows: Vec<Vec<String>> = Vec::new();
     let mut off = Vec::new();
     for (joint, realisation) in [
         ("revolute", "tsda"),
@@ -97,13 +95,10 @@ fn it_is_of_order_2_whatever_the_damping() {
         ("cylindrical", ""),
         ("translational", ""),
     ] {
-        let what = if realisation.is_empty() { "tsda" } else { realisation };
         for rho in [0.0, 0.5, 0.8] {
-            let mut row = vec![format!("{joint}, {what}"), format!("{rho}")];
             for damping in DAMPING {
                 let model: SceneModel<F64> = hung(joint, realisation, damping).model.planned();
                 let found = order(&model, GeneralizedAlpha::new(rho).unwrap(), longest(damping));
-                row.push(format!("{found:.2}"));
                 // Between two coefficients of h², see `sliders_reach_order_2_at_shorter_steps`.
                 let slides = matches!(joint, "cylindrical" | "translational");
                 let least = if slides && damping == 1_000.0 { 1.4 } else { 1.8 };
@@ -111,22 +106,15 @@ fn it_is_of_order_2_whatever_the_damping() {
                     off.push(format!("{joint} {realisation} {rho} {damping}: {found}"));
                 }
             }
-            println!("{row:?}");
-            rows.push(row);
         }
     }
     assert!(off.is_empty(), "{off:#?}");
-    let damping = DAMPING.map(|damping| format!("{damping} N·s/m"));
-    let head: Vec<&str> =
-        ["joints", "ρ∞"].into_iter().chain(damping.iter().map(String::as_str)).collect();
-    block("docs/near-rigid.md", "near-rigid damped orders", &table(&head, &rows));
 }
 
 /// Where a step begins to resolve how fast the damped motion of a slider dies, the error goes over from one
 /// coefficient of h² to another; on the way it seems to be of a lower order.
 #[test]
 fn sliders_reach_order_2_at_shorter_steps() {
-    let mut rows: Vec<Vec<String>> = Vec::new();
     for joint in ["cylindrical", "translational"] {
         for damping in [100.0, 1_000.0, 10_000.0] {
             let model: SceneModel<F64> = hung(joint, "", damping).model.planned();
@@ -137,15 +125,8 @@ fn sliders_reach_order_2_at_shorter_steps() {
             let transition = damping == 1_000.0;
             assert!(orders[3] > if transition { 1.8 } else { 1.9 }, "{joint}: {orders:?}");
             assert!(!transition || orders[0].min(orders[1]) < 1.7, "{joint}: {orders:?}");
-            let cells = found.map(|(step, apart)| {
-                format!("{:.2} ({:.2})", (apart[0] / apart[1]).log2(), apart[0] / (step * step))
-            });
-            let head = [joint.to_owned(), format!("{damping}")];
-            rows.push(head.into_iter().chain(cells).collect());
         }
     }
-    let head = ["joints", "damping [N·s/m]", "0.4 ms", "0.1 ms", "25 µs", "12.5 µs"];
-    block("docs/near-rigid.md", "near-rigid slider orders", &table(&head, &rows));
 }
 
 /// Ground that jumps by a table, and goes on at another rate.

@@ -102,7 +102,6 @@ fn what_a_turning_body_gains() {
         plant.advance(100).ok().unwrap();
         (energy(model, plant.state(), step).total() / before - 1.0) / 100.0
     }
-    let mut rows = Vec::new();
     for (realisation, turns) in [("tsda", &[0.025, 0.05][..]), ("bushing", &[0.025, 0.05, 0.1])] {
         let model = rotor(realisation);
         let mut last: Option<f64> = None;
@@ -121,16 +120,8 @@ fn what_a_turning_body_gains() {
                 "{turn}: {third:e} after {last:?}"
             );
             last = Some(third);
-            rows.push(vec![
-                format!("`{realisation}`"),
-                format!("{turn}"),
-                figure(second, 2),
-                figure(third, 2),
-            ]);
         }
     }
-    let head = ["pin", "turn in a step [rad]", "`generalized-alpha`", "`generalized-alpha-3`"];
-    block("docs/near-rigid.md", "near-rigid rotor", &table(&head, &rows));
 }
 
 /// \[m\] positions.

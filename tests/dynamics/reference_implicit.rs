@@ -5,7 +5,6 @@ use dbd_plant::frequencies::Frequencies;
 use dbd_study::reference::implicit::Implicit;
 use dbd_study::reference::trajectory::{Positions, sample_times};
 use dbd_study::reference::{Mechanism, Trajectory};
-use dbd_tests::page::{block, table};
 use dbd_tests::{hung_ring, scene};
 
 /// The error against the truth at `samples` samples with `steps` steps between them.
@@ -60,7 +59,6 @@ fn it_converges_with_order_1_at_steps_beyond_the_explicit_limit() {
 /// within a few steps, as in the four-bar, they are damped, and nothing grows.
 #[test]
 fn large_steps_are_calm() {
-    let mut rows: Vec<Vec<String>> = Vec::new();
     let slow = ["hexagon", "chain-closed", "crank-slider", "3ruu"].map(|name| (name, 0.03));
     for (name, share) in slow.into_iter().chain([("four-bar", 0.4)]) {
         let scene = scene(name);
@@ -73,10 +71,6 @@ fn large_steps_are_calm() {
             .into_iter()
             .fold(0.0, f64::max);
         let error = error(&scene.model, &reference_solution, steps);
-        let cells = [format!("{z:.0}"), format!("{moved:.3}"), format!("{error:.1e}")];
-        rows.push([name.to_owned()].into_iter().chain(cells).collect());
         assert!(z > 10.0 && error < share * moved, "{name}: z = {z}, {error:e} of {moved:e}");
     }
-    let head = ["2 ms per step, 0.2 s", "z = ω·h", "motion [m]", "error [m]"];
-    block("docs/reference-solvers.md", "implicit", &table(&head, &rows));
 }

@@ -13,7 +13,6 @@ use dbd_scene::Scene;
 use dbd_study::reference::Trajectory;
 use dbd_study::stability::{Stability, Vibration, stability};
 use dbd_tests::page::{block, figure, table};
-use dbd_tests::results::cost;
 use dbd_tests::scene;
 
 fn of(scene: &Scene, method: &Method) -> Stability {
@@ -147,19 +146,6 @@ fn sweeps_keep_the_step_that_explicit_damping_loses() {
     rows.push(["sweeps over dbd's error".to_owned()].into_iter().chain(ratios).collect());
     let head = [&["limit of ω·h / error at it, at 2 at most [m]"], &SCENES[..]].concat();
     block("docs/reference-solvers.md", "damped", &table(&head, &rows));
-
-    // What a unit of z costs on the target, at the limits of the first mechanism.
-    let scene = "double-wishbone";
-    let counted = ["leapfrog", "leapfrog-explicit", "semi-implicit-euler-explicit", "dbd"];
-    let rows = methods.iter().zip(counted).enumerate().map(|(i, (method, counted))| {
-        let limit = found[0][i].0.min(method.stability_limit());
-        let count = cost(scene, counted, "f32").number("instructions_mean");
-        let cells = [format!("{limit:.2}"), figure(count, 3), figure(count / limit, 3)];
-        [title(method)].into_iter().chain(cells).collect()
-    });
-    let rows: Vec<Vec<String>> = rows.collect();
-    let head = ["", "limit of z, 2 at most", "instructions per step", "instructions per unit of z"];
-    block("docs/reference-solvers.md", "damped cost", &table(&head, &rows));
 }
 
 /// The limit of each method on a damped mechanism, and the error \[m\] at it.

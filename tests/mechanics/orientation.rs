@@ -9,7 +9,7 @@ use dbd_kernel::{
     Plant, Quaternion, Real, Rk4, Scheme, SemiImplicitEuler, Vec3,
 };
 use dbd_scene::SceneModel;
-use dbd_tests::page::{block, figure, table};
+use dbd_tests::page::{block, table};
 use dbd_tests::{Bench, distance, hung_ring, run, scene, turned};
 
 const INERTIA: [f64; 3] = [0.5, 0.7, 1.1];
@@ -50,13 +50,6 @@ fn through_the_pole() {
     assert!(quaternion < 5e-13 && angles < 5e-13, "{quaternion:e} {angles:e}");
     let (quaternion, angles) = (worst_change::<F32>(), worst_change::<EulerF32>());
     assert!(quaternion < 5e-4 && angles < 5e-4, "{quaternion:e} {angles:e}");
-    // What is rounding alone differs between machines whose sine differs in its last bit.
-    let rows = [
-        ["`quaternion`", "4 numbers", "< 5e-13", &figure_of(quaternion)],
-        ["`euler-321`", "3 numbers and the sequence", "< 5e-13", &figure_of(angles)],
-    ];
-    let rows = rows.map(|row| row.map(str::to_owned).to_vec());
-    block("docs/schemes-measured.md", "poles", &table(&["", "stored words", "f64", "f32"], &rows));
 }
 
 fn figure_of(change: f64) -> String {
@@ -146,20 +139,12 @@ fn backward_difference<P: Geometry>(coordinate: f64) -> [f64; 2] {
 
 #[test]
 fn backward_differences_are_noisy() {
-    let mut rows = Vec::new();
     for coordinate in [1.0, 2.0, 4.0] {
-        let ([single, most], [double, _]) =
+        let ([single, _], [double, _]) =
             (backward_difference::<F32>(coordinate), backward_difference::<F64>(coordinate));
-        let milli = [single, most].map(|error| figure(1e3 * error, 2));
-        let double_milli = if double < 1e-9 { "< 1e-6".into() } else { figure(1e3 * double, 2) };
-        rows.push(
-            [format!("{coordinate}")].into_iter().chain(milli).chain([double_milli]).collect(),
-        );
         // A rounding of positions over a step.
         assert!((1e-3..2e-2).contains(&single) && double < 1e-9, "{single:e} {double:e}");
     }
-    let head = ["coordinate [m]", "f32, RMS [mm/s]", "f32, at most [mm/s]", "f64, RMS [mm/s]"];
-    block("docs/schemes-measured.md", "differences", &table(&head, &rows));
 }
 
 /// The paper turns the world frame where a pitch comes close to ±90°, which a body that turns end
@@ -184,9 +169,6 @@ fn turning_the_world_frame_moves_what_it_holds() {
     let double = turned_frames::<F64>(1_000);
     assert!((1e-8..5e-7).contains(&once), "{once:e}");
     assert!(often > 3.0 * once && double < 1e-12, "{often:e} {double:e}");
-    let cells = [format!("{once:.0e}"), format!("{often:.0e}"), "< 1e-12".to_owned()];
-    let head = ["f32, once", "f32, 1000 times", "f64, 1000 times"];
-    block("docs/schemes-measured.md", "frames", &table(&head, &[cells.to_vec()]));
 }
 
 /// Three bodies, tumbling, joined and hung, against their truth with quaternions.

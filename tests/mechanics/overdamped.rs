@@ -13,7 +13,7 @@ use dbd_kernel::{
 use dbd_scene::{Scene, SceneModel};
 use dbd_study::reference::trajectory::Trajectory;
 use dbd_tests::mechanisms::Random;
-use dbd_tests::page::{block, figure, table};
+use dbd_tests::page::{block, table};
 use dbd_tests::scene;
 use nalgebra::Vector3;
 
@@ -251,7 +251,6 @@ fn sunk<S: Scheme + 'static>(model: SceneModel<F64>, scheme: S, h: f64) -> impl 
 /// both are of second order.
 #[test]
 fn suspensions_are_more_exact_at_equal_steps() {
-    let mut rows: Vec<Vec<String>> = Vec::new();
     for (name, window, steps) in
         [("macpherson", 0.05, [2e-4, 1e-4]), ("double-wishbone", 0.1, [4e-4, 2e-4])]
     {
@@ -269,12 +268,6 @@ fn suspensions_are_more_exact_at_equal_steps() {
             let reported =
                 worst(&reference_solution, Plant::new(&scene.model, Leapfrog, h).unwrap(), every);
             assert!(reported < 0.5 * alone, "{name}, {step}: {reported:e}, {alone:e}");
-            let microseconds = format!("{:.0} µs", 1e6 * step);
-            let ratio = figure(alone / reported, 2);
-            let cells = [alone, reported].map(|error| format!("{error:.1e}"));
-            rows.push(
-                [name.to_owned(), microseconds].into_iter().chain(cells).chain([ratio]).collect(),
-            );
             errors.push([alone, reported]);
         }
         for (long, short) in errors[0].into_iter().zip(errors[1]) {
@@ -282,8 +275,6 @@ fn suspensions_are_more_exact_at_equal_steps() {
             assert!((order - 2.0).abs() < 0.1, "{name}: {order}");
         }
     }
-    let head = ["", "step", "passes without the kick [m]", "`leapfrog` [m]", "ratio"];
-    block("docs/schemes-measured.md", "suspensions", &table(&head, &rows));
 }
 
 /// \[m\] the largest distance of a body from the truth.

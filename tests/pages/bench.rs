@@ -48,13 +48,6 @@ fn times_of_steps_are_as_kept() {
     let head = ["system", "bodies", "TSDAs", "µs", "±%", "f32", "std", "plain", "bound"];
     let of = format!("{}:\n\n", text(&kept, "of"));
     block(SPEED, "times", &(of + &table(&head, &lines)));
-
-    let part = |part: &Value| {
-        let ns = |key: &str| cell(&part[key], |seconds| figure(seconds * 1e9, 2));
-        vec![text(part, "of").to_owned(), ns("time_s"), ns("error_s")]
-    };
-    let parts: Vec<_> = list(&bench["fit"], "parts").iter().map(part).collect();
-    block(SPEED, "parts", &table(&["per", "ns", "± ns"], &parts));
 }
 
 #[test]

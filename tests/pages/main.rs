@@ -200,15 +200,3 @@ fn the_cost_of_sweeps_is_that_of_the_costs() {
         &table(&["double-wishbone, f32", "instructions"], &rows),
     );
 }
-
-#[test]
-fn bits_are_the_golden_ones() {
-    let golden = rows("tests/bits/hashes.csv");
-    let hash = |scheme: &str, precision: &str| {
-        let wanted = [("scene", "four-bar"), ("scheme", scheme), ("precision", precision)];
-        let row = golden.iter().find(|row| row.is(&wanted) && row.text("steps") == "10000");
-        format!("`{}`", row.unwrap().text("hash"))
-    };
-    let lines = ["f64", "f32"].map(|p| vec![p.to_owned(), hash("dbd", p), hash("leapfrog", p)]);
-    block("docs/measured.md", "bits", &table(&["", "dbd", "leapfrog"], &lines));
-}

@@ -106,13 +106,3 @@ fn goals_stand_beside_what_is() {
     }
     block(PAGE, "goals", &table(&["what", "goal", "is", ""], &lines));
 }
-
-#[test]
-fn what_did_not_help_is_told() {
-    let line = |row: &Row| {
-        ["tried", "where", "ratio", "of", "why"].map(|column| row.text(column).to_owned()).to_vec()
-    };
-    let tried = rows("docs/results/tried.csv");
-    let head = ["tried", "where", "ratio", "of", "why"];
-    block(PAGE, "tried", &table(&head, &tried.iter().map(line).collect::<Vec<_>>()));
-}

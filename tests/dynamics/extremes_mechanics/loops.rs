@@ -5,10 +5,9 @@ use std::f64::consts::{PI, TAU};
 use dbd_kernel::{BodyState, F64, Vec3};
 use dbd_plant::{AnyPlant, Frequencies, Method, PrecisionName, plant};
 use dbd_scene::Scene;
-use dbd_tests::page::figure;
 use dbd_tests::{scene, scene_text};
 
-use crate::extremes_mechanics::{End, Rows, States, UNDAMPED, Way, each, follow, single};
+use crate::extremes_mechanics::{End, States, UNDAMPED, Way, each, follow, single};
 
 /// \[m\] crank and rod; \[kg\] crank, rod and slider.
 const CRANK: f64 = 0.1;
@@ -104,7 +103,6 @@ impl Kept {
 /// From the outer dead centre over the inner one and back, in one turn of the rigid mechanism.
 #[test]
 fn a_crank_turns_through_its_dead_centres() {
-    let mut rows = Rows::new(&["rod over crank", "what"], &UNDAMPED);
     for ratio in [3.0, 1.1, 1.001] {
         let rod = ratio * CRANK;
         let scene = crank_slider(rod, RATE, 0.0);
@@ -112,8 +110,7 @@ fn a_crank_turns_through_its_dead_centres() {
         let longest = 0.5 / Frequencies::of(&scene).bound;
         let steps = (turn / longest / 100.0).ceil() as u64 * 100;
         let step = turn / steps as f64;
-        let mut energies = Vec::new();
-        let ends = each(&UNDAMPED, |way, method| {
+        each(&UNDAMPED, |way, method| {
             let mut kept = Kept::new(&scene, method, step);
             let [mut last, mut energy] = [0.0, 0.0_f64];
             let end = follow(&scene, method, step, steps, 100, |_, state| {
@@ -124,7 +121,6 @@ fn a_crank_turns_through_its_dead_centres() {
             assert!(end == End::Right(0.0), "{ratio} {method:?} {end:?}");
             let bound = if way == Way::Dbd { 0.2 } else { 0.02 };
             assert!(energy < bound, "{ratio} {method:?} {energy}");
-            energies.push(End::Right(energy));
             let off = last.min(TAU - last);
             // Where rod and crank are all but alike the slider's stroke ends in a shock, after which
             // the compliant mechanism goes its own way.
@@ -132,11 +128,7 @@ fn a_crank_turns_through_its_dead_centres() {
             assert!(off < bound, "{ratio} {method:?} {off}");
             End::Right(off)
         });
-        rows.push(vec![format!("{ratio}"), "angle [rad]".into()], &ends);
-        let energies: Vec<[End; 2]> = energies.chunks(2).map(|both| [both[0], both[1]]).collect();
-        rows.push(vec![format!("{ratio}"), "energy".into()], &energies);
     }
-    rows.write("dead centres");
 }
 
 /// A slider that is pulled from its pivot or pushed to it at the dead centre, with the crank nudged: small
@@ -144,14 +136,13 @@ fn a_crank_turns_through_its_dead_centres() {
 #[test]
 fn a_slider_pushed_at_its_dead_centre_moves_as_it_should() {
     let rod = 3.0 * CRANK;
-    let mut rows = Rows::new(&["pull [N]", "crank nudged by [rad/s]"], &UNDAMPED);
     for (load, nudge) in [(1e3, 0.0), (-1e3, 0.0), (1e3, 1e-2), (-1e3, 1e-2)] {
         let scene = crank_slider(rod, nudge, load);
         let step = 0.5 / Frequencies::of(&scene).bound;
         let square = 1e3 * CRANK * (1.0 + CRANK / rod) / inertia(rod, 0.0);
         let omega: f64 = square.sqrt();
         let steps = (4.0 / omega / step) as u64 / 20 * 20;
-        let ends = each(&UNDAMPED, |_, method| {
+        each(&UNDAMPED, |_, method| {
             let mut way = 0.0_f64;
             let end = follow(&scene, method, step, steps, 20, |t, state| {
                 let shape = if load > 0.0 { (omega * t).sin() } else { (omega * t).sinh() };
@@ -168,50 +159,40 @@ fn a_slider_pushed_at_its_dead_centre_moves_as_it_should() {
             assert!(end.is_within(bound), "{load} {method:?} {end:?}");
             end
         });
-        rows.push(vec![figure(load, 1), figure(nudge, 1)], &ends);
     }
-    rows.write("pushed at the dead centre");
 }
 
 /// The four-bar with its coupler pulled away from where its joints are, let go.
 #[test]
 fn a_loop_that_is_pulled_open_closes_and_keeps_its_energy() {
-    let mut rows = Rows::new(&["pulled by [m]", "energy at the start [J]"], &UNDAMPED);
     for by in [1e-3, 0.01, 0.1, 1.0, 10.0, 1e3, 1e6] {
         let mut scene = scene("four-bar");
         scene.model.initial[1].position.y += by;
         let step = 0.5 / Frequencies::of(&scene).bound;
-        let mut first = 0.0;
-        let ends = each(&UNDAMPED, |way, method| {
+        each(&UNDAMPED, |way, method| {
             let mut kept = Kept::new(&scene, method, step);
-            first = kept.start;
             let end = follow(&scene, method, step, 2_000, 100, |_, state| kept.change(state));
             let bound = if way == Way::Dbd { 0.2 } else { 0.02 };
             assert!(end.is_loosely_within(bound), "{by} {method:?} {end:?}");
             end
         });
-        rows.push(vec![figure(by, 1), figure(first, 2)], &ends);
     }
-    rows.write("pulled open");
 }
 
 /// Bodies of the four-bar that are thrown apart at a speed.
 #[test]
 fn a_loop_that_is_torn_comes_back_or_is_told() {
-    let mut rows = Rows::new(&["rocker thrown at [m/s]"], &UNDAMPED);
     for speed in [10.0, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e10, 1e18, 1e30] {
         let mut scene = scene("four-bar");
         scene.model.initial[2].velocity.x = speed;
         let step = 0.5 / Frequencies::of(&scene).bound;
-        let ends = each(&UNDAMPED, |_, method| {
+        each(&UNDAMPED, |_, method| {
             let mut kept = Kept::new(&scene, method, step);
             let end = follow(&scene, method, step, 1_000, 100, |_, state| kept.change(state));
             assert!(end.is_reported() || end.is_loosely_within(0.7), "{speed} {method:?} {end:?}");
             end
         });
-        rows.push(vec![figure(speed, 1)], &ends);
     }
-    rows.write("torn");
 }
 
 /// The four-bar's text, its places moved along all axes.
@@ -242,10 +223,9 @@ fn a_loop_far_from_the_origin() {
         reference_solution.push(state.bodies.clone());
         0.0
     });
-    let mut rows = Rows::new(&["from the origin [m]"], &UNDAMPED);
     for by in [0.0, 10.0, 1e3, 1e6] {
         let scene = moved(by);
-        let ends = each(&UNDAMPED, |_, method| {
+        each(&UNDAMPED, |_, method| {
             let mut sample = 0;
             let end = follow(&scene, method, step, steps, 50, |_, state| {
                 let origin = Vec3::<f64>::from_f64([by; 3]);
@@ -266,7 +246,5 @@ fn a_loop_far_from_the_origin() {
             assert!(right, "{by} {method:?} {end:?}");
             end
         });
-        rows.push(vec![figure(by, 1)], &ends);
     }
-    rows.write("far loop");
 }

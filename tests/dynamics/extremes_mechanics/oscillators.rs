@@ -17,7 +17,6 @@ fn x(state: &States, row: usize) -> f64 {
 /// Two free bodies on one spring vibrate against each other by ω = 1 rad/s in steps of 0.1 s.
 #[test]
 fn two_bodies_of_any_mass_ratio_vibrate_as_one() {
-    let mut rows = Rows::new(&["mass ratio"], &UNDAMPED);
     for ratio in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
         let stiffness = ratio / (1.0 + ratio);
         let scene = scene_of(&[
@@ -25,7 +24,7 @@ fn two_bodies_of_any_mass_ratio_vibrate_as_one() {
             body("other", ratio, LENGTH + AMPLITUDE),
             spring(["one", "other"], stiffness, 0.0, LENGTH),
         ]);
-        let ends = each(&UNDAMPED, |way, method| {
+        each(&UNDAMPED, |way, method| {
             let end = follow(&scene, method, 0.1, 600, 200, |t, state| {
                 (x(state, 1) - x(state, 0) - LENGTH - AMPLITUDE * t.cos()).abs() / AMPLITUDE
             });
@@ -33,16 +32,13 @@ fn two_bodies_of_any_mass_ratio_vibrate_as_one() {
             assert!(end.is_within(way.error(0.1, 60.0) + rounding), "{ratio:e} {method:?} {end:?}");
             end
         });
-        rows.push(vec![format!("{ratio:e}")], &ends);
     }
-    rows.write("mass ratios");
 }
 
 /// A body of 1 kg hangs on a light one between two springs: a quarter of its period, in steps for the
 /// light one.
 #[test]
 fn a_heavy_body_on_a_light_one_moves_as_it_should() {
-    let mut rows = Rows::new(&["light one [kg]"], &UNDAMPED);
     let stiffness = 1.0;
     for light in [1e-6_f64, 1e-4, 1e-2, 1.0] {
         // Modes of [[2, −1], [−1, 1]]·k over the masses: ω⁴·m − ω²·(2 + m) + 1 = 0.
@@ -59,7 +55,7 @@ fn a_heavy_body_on_a_light_one_moves_as_it_should() {
         ]);
         let step = 0.1 / fast_square.sqrt();
         let steps = (std::f64::consts::FRAC_PI_2 / slow / step) as u64 / 10 * 10;
-        let ends = each(&UNDAMPED, |way, method| {
+        each(&UNDAMPED, |way, method| {
             let end = follow(&scene, method, step, steps, 10, |t, state| {
                 (x(state, 1) - 2.0 * LENGTH - AMPLITUDE * (slow * t).cos()).abs() / AMPLITUDE
             });
@@ -68,9 +64,7 @@ fn a_heavy_body_on_a_light_one_moves_as_it_should() {
             assert!(end.is_within(bound), "{light:e} {method:?} {end:?}");
             end
         });
-        rows.push(vec![format!("{light:e}")], &ends);
     }
-    rows.write("light between");
 }
 
 /// 1 kg is let go on a spring at its free length of 1 m under 9.81 m/s².
@@ -209,7 +203,6 @@ fn dampers_of_any_strength() {
 /// Constants that double precision holds and single precision does not: each run in the latter ends told.
 #[test]
 fn constants_beyond_single_precision_are_told() {
-    let mut rows = Rows::new(&["a body on a spring, with"], &UNDAMPED);
     let cases = [
         ("a mass of 1e39 kg", body("b", 1e39, 1.0), 1e5, 1e-3),
         ("a mass of 1e-38 kg", body("b", 1e-38, 1.0), 1e5, 1e-25),
@@ -219,7 +212,7 @@ fn constants_beyond_single_precision_are_told() {
     for (name, body, stiffness, step) in cases {
         let scene = scene_of(&[body, spring(["world", "b"], stiffness, 0.0, 0.5)]);
         let start = x(&dbd_kernel::State::initial(&scene.model), 0);
-        let ends = each(&UNDAMPED, |_, method| {
+        each(&UNDAMPED, |_, method| {
             let end = follow(&scene, method, step, 100, 100, |_, state| {
                 // No further than it was let go, but for the scheme's error.
                 (x(state, 0).abs() / start - 1.0).max(0.0)
@@ -231,13 +224,12 @@ fn constants_beyond_single_precision_are_told() {
             );
             end
         });
-        rows.push(vec![name.into()], &ends);
     }
     // Its way is 1e40 m: the error in parts of it.
     let (speed, omega, step) = (1e37, 1e-3, 10.0);
     let body = body("b", 1.0, 0.0) + &format!("velocity = [{speed:?}, 0, 0]\n");
     let scene = scene_of(&[body, spring(["world", "b"], omega * omega, 0.0, 0.0)]);
-    let ends = each(&UNDAMPED, |_, method| {
+    each(&UNDAMPED, |_, method| {
         let end = follow(&scene, method, step, 100, 100, |t, state| {
             (x(state, 0) - speed / omega * (omega * t).sin()).abs() * omega / speed
         });
@@ -247,6 +239,4 @@ fn constants_beyond_single_precision_are_told() {
         );
         end
     });
-    rows.push(vec!["a speed of 1e37 m/s and steps of 10 s".into()], &ends);
-    rows.write("beyond f32");
 }

@@ -3,7 +3,7 @@
 use dbd_scene::Scene;
 
 use crate::extremes_mechanics::{
-    DAMPED, End, Rows, States, UNDAMPED, Way, body, each, follow, scene_of, single, spring,
+    DAMPED, End, States, UNDAMPED, Way, body, each, follow, scene_of, single, spring,
 };
 
 fn x(state: &States) -> f64 {
@@ -25,7 +25,6 @@ fn mount(start: [f64; 2], velocity: f64, damping: f64, free_length: f64) -> Scen
 /// An element without free length needs no direction: a body swings through its other point.
 #[test]
 fn elements_without_length_are_driven_through_zero() {
-    let mut rows = Rows::new(&["", "damping ratio"], &DAMPED);
     let line = |damping: f64| {
         scene_of(&[
             body("b", 1.0, 0.0).replace("[0.0, 0, 0]", "[1.0, 0, 0]"),
@@ -39,7 +38,7 @@ fn elements_without_length_are_driven_through_zero() {
     for ratio in [0.0, 0.1_f64, 1.0] {
         let tsda = mount([1.0, 0.0], 0.0, 2.0 * ratio, 0.0);
         for (name, scene) in [("TSDA", tsda), ("point on line", line(2.0 * ratio))] {
-            let ends = each(&DAMPED, |way, method| {
+            each(&DAMPED, |way, method| {
                 let end = follow(&scene, method, 0.1, 600, 600, |t, state| {
                     (x(state) - crate::extremes_mechanics::oscillators::relaxed(ratio, t)).abs()
                 });
@@ -47,10 +46,8 @@ fn elements_without_length_are_driven_through_zero() {
                 assert!(end.is_within(bound), "{name} {ratio} {method:?} {end:?}");
                 end
             });
-            rows.push(vec![name.into(), format!("{ratio}")], &ends);
         }
     }
-    rows.write("no length");
 }
 
 /// \[m\] of the elements that have a free length here.
@@ -76,10 +73,9 @@ fn a_spring_with_a_length_is_driven_through_zero() {
             -side * (LENGTH + reach * (2.0 * crossing - phase).cos())
         }
     };
-    let mut rows = Rows::new(&["step [s]"], &UNDAMPED);
     for step in [0.1, 0.01, 1e-3] {
         let scene = mount([2.0, 0.0], 0.0, 0.0, LENGTH);
-        let ends = each(&UNDAMPED, |_, method| {
+        each(&UNDAMPED, |_, method| {
             let steps = (10.0 / step) as u64;
             let end = follow(&scene, method, step, steps, 100, |t, state| {
                 (x(state) - reference_solution(t)).abs()
@@ -89,21 +85,18 @@ fn a_spring_with_a_length_is_driven_through_zero() {
             assert!(end.is_within(bound), "{step} {method:?} {end:?}");
             end
         });
-        rows.push(vec![format!("{step:e}")], &ends);
     }
-    rows.write("through zero");
 }
 
 /// Likewise, past the other point at a distance of `aside`: no plain solution, but energy stays.
 #[test]
 fn a_spring_passes_close_by_its_other_point() {
-    let mut rows = Rows::new(&["passing by at [m]", "damping ratio"], &DAMPED);
     for aside in [0.1_f64, 1e-3, 1e-9, 1e-30, 1e-160] {
         for ratio in [0.0, 0.1] {
             let scene = mount([2.0, aside], 0.0, 2.0 * ratio, LENGTH);
             let extension = aside.hypot(2.0) - LENGTH;
             let start = 0.5 * extension * extension;
-            let ends = each(&DAMPED, |_, method| {
+            each(&DAMPED, |_, method| {
                 let end = follow(&scene, method, 1e-3, 10_000, 200, |_, state| {
                     let body = &state.bodies[0];
                     let speed = body.velocity;
@@ -118,10 +111,8 @@ fn a_spring_passes_close_by_its_other_point() {
                 assert!(end.is_within(bound), "{aside:e} {ratio} {method:?} {end:?} {bound:e}");
                 end
             });
-            rows.push(vec![format!("{aside:e}"), format!("{ratio}")], &ends);
         }
     }
-    rows.write("close by");
 }
 
 /// Points that coincide at the start have no direction: with a free length a scene is refused. A

@@ -7,7 +7,7 @@ use dbd_scene::Scene;
 use dbd_tests::page::{block, figure, grouped, table};
 use dbd_tests::results::cost;
 
-use crate::extremes_mechanics::{End, Rows, UNDAMPED, Way, body, each, follow, scene_of, single};
+use crate::extremes_mechanics::{End, UNDAMPED, Way, body, each, follow, scene_of, single};
 
 /// A chain of links of 0.1 m and 0.1 kg on spherical joints, folded to and fro in one place.
 fn chain(links: usize) -> Result<Scene, String> {
@@ -122,7 +122,7 @@ fn the_smallest_models() {
     };
     assert!(flash <= 128 && ram <= 256, "{flash} {ram}");
     let scene = scene_of(&[body("b", 1.0, 0.0) + "velocity = [1, 0, 0]\n"]);
-    let ends = each(&UNDAMPED, |way, method| {
+    each(&UNDAMPED, |way, method| {
         let end = follow(&scene, method, 0.125, 800, 8, |t, state| {
             (state.bodies[0].position.x - t).abs()
         });
@@ -132,9 +132,6 @@ fn the_smallest_models() {
         assert!(end.is_within(bound), "{method:?} {end:?}");
         end
     });
-    let mut rows = Rows::new(&["flash [B]", "RAM [B]"], &UNDAMPED);
-    rows.push([flash, ram].map(|bytes| bytes.to_string()).into(), &ends);
-    rows.write("smallest");
     let refused = Scene::parse("name = \"none\"\nduration = 1\n", "none.toml");
     let why = refused.unwrap_err().to_string();
     assert!(why.contains("no bodies"), "{why}");
@@ -151,12 +148,9 @@ fn peak() -> Option<f64> {
 fn ten_thousand_bodies_on_a_pc() {
     let before = peak();
     let ways = [Way::Leapfrog, Way::Rk4];
-    let mut rows = Rows::new(&["bodies", "memory of it all, below [MB]"], &ways);
     let links = 10_000;
-    let ends = falls(links, &ways, 20);
+    falls(links, &ways, 20);
     let most = 200.0;
-    rows.push(vec![grouped(&links.to_string()), figure(most, 2)], &ends);
-    rows.write("many bodies");
     if let (Some(before), Some(after)) = (before, peak()) {
         assert!(after - before < 1e3 * most, "{} MB", (after - before) / 1e3);
     }

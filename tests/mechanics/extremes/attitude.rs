@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use dbd_kernel::euler::{EulerF32, EulerF64};
 use dbd_kernel::{BodyState, F32, F64, Geometry, Leapfrog, Pefrl, Plant, Quaternion, Scheme, Vec3};
 use dbd_tests::Bench;
-use dbd_tests::page::{block, figure, table};
+use dbd_tests::page::{block, table};
 
-use super::{outcome, rounding};
+use super::outcome;
 
 /// \[rad/s\] the spin.
 const SPIN: f64 = 1e4;
@@ -148,24 +148,14 @@ fn flips<P: Geometry, S: Scheme>(scheme: S, step_angle: f64) -> [f64; 3] {
 
 #[test]
 fn a_body_flips_about_its_middle_axis_in_time() {
-    let mut rows = Vec::new();
-    let mut row = |name: &str, step_angle: f64, seen: [f64; 3], bounds: [f64; 3]| {
+    let check = |name: &str, seen: [f64; 3], bounds: [f64; 3]| {
         assert!(seen.iter().zip(bounds).all(|(seen, bound)| *seen < bound), "{name}: {seen:?}");
-        let cells = [figure(seen[0], 1), rounding(seen[1]), figure(seen[2], 1)];
-        rows.push([name.to_owned(), format!("{step_angle}")].into_iter().chain(cells).collect());
     };
     for (step_angle, time) in [(0.1, 1e-2), (0.01, 1e-4)] {
-        row(
-            "leapfrog, f64",
-            step_angle,
-            flips::<F64, _>(Leapfrog, step_angle),
-            [time, 1e-12, time],
-        );
-        row("pefrl, f64", step_angle, flips::<F64, _>(Pefrl, step_angle), [time, 1e-12, time]);
-        row("leapfrog, f32", step_angle, flips::<F32, _>(Leapfrog, step_angle), [0.05, 1e-3, 1e-2]);
+        check("leapfrog, f64", flips::<F64, _>(Leapfrog, step_angle), [time, 1e-12, time]);
+        check("pefrl, f64", flips::<F64, _>(Pefrl, step_angle), [time, 1e-12, time]);
+        check("leapfrog, f32", flips::<F32, _>(Leapfrog, step_angle), [0.05, 1e-3, 1e-2]);
     }
-    let head = ["", "h·ω", "time between flips", "angular momentum", "energy"];
-    block("docs/extremes.md", "flips", &table(&head, &rows));
 }
 
 /// How far a direction is off \[rad\] after 10 turns end over end, through exactly ±90° of pitch each
@@ -186,14 +176,6 @@ fn through_the_pole<P: Geometry>(sign: f64) -> Result<f64, u64> {
 
 #[test]
 fn pitch_passes_exactly_through_the_poles() {
-    fn row<P: Geometry, Q: Geometry>() -> Vec<String> {
-        let cell = |[plus, minus]: [Result<f64, u64>; 2]| {
-            outcome(plus.and_then(|plus| Ok(plus.max(minus?))))
-        };
-        let (double, single) =
-            ([1.0, -1.0].map(through_the_pole::<P>), [1.0, -1.0].map(through_the_pole::<Q>));
-        vec![format!("`{}`", P::ORIENTATION), cell(double), cell(single)]
-    }
     for sign in [1.0, -1.0] {
         for off in [through_the_pole::<F64>(sign), through_the_pole::<EulerF64>(sign)] {
             assert!(off.is_ok_and(|off| off < 1e-9), "{off:?}");
@@ -202,6 +184,4 @@ fn pitch_passes_exactly_through_the_poles() {
             assert!(off.is_ok_and(|off| off < 5e-2), "{off:?}");
         }
     }
-    let rows = [row::<F64, F32>(), row::<EulerF64, EulerF32>()];
-    block("docs/extremes.md", "pitch", &table(&["", "f64 [rad]", "f32 [rad]"], &rows));
 }

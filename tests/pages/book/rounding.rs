@@ -1,9 +1,6 @@
 //! What rounding does to energies, precision by precision.
 //!
-//! `docs/results/precisions.csv, docs/costs.csv => blocks of docs/precision.md`, a row per scene and precision, and
-//! a sentence per scene.
-
-use std::fmt::Write as _;
+//! `docs/results/precisions.csv, docs/costs.csv => blocks of docs/precision.md`, a row per scene and precision.
 
 use dbd_tests::page::{block, figure, grouped, table};
 use dbd_tests::results::{Row, rows};
@@ -56,7 +53,6 @@ fn shown(count: Option<f64>) -> String {
 fn rounding_is_as_measured() {
     let runs = Runs::read();
     let mut text = Vec::new();
-    let mut sentences = String::new();
     for scene in SCENES {
         let run = |precision, damped, place| {
             runs.of([scene, "leapfrog", "9e6", precision], damped, place)
@@ -78,28 +74,6 @@ fn rounding_is_as_measured() {
                 shown(instructions(scene, precision)),
             ]);
         }
-        let of = |precision, column| run(precision, false, "0").number(column);
-        let times = |precision| {
-            let ratio = instructions(scene, precision)? / instructions(scene, "f32")?;
-            Some(figure(ratio, 2))
-        };
-        let _ = write!(
-            sentences,
-            "- `{scene}`: f32 changes the energy that the scheme keeps by {} J and \
-             gets {} m off; `fixed` changes it by {} J, {}-fold less, gets {} m off",
-            figure(of("f32", "kept_max_j"), 2),
-            figure(of("f32", "off_m"), 2),
-            figure(of("fixed", "kept_max_j"), 2),
-            figure(of("f32", "kept_max_j") / of("fixed", "kept_max_j"), 2),
-            figure(of("fixed", "off_m"), 2),
-        );
-        if let (Some(fixed), Some(double)) = (times("fixed"), times("f64")) {
-            let _ = write!(
-                sentences,
-                ", and takes {fixed} times the instructions of f32, where f64 takes {double} times"
-            );
-        }
-        sentences += ".\n";
     }
     let steps = |row: &Row| grouped(row.text("steps"));
     let run = runs.of(["hexagon", "leapfrog", "9e6", "fixed"], false, "0");
@@ -116,7 +90,6 @@ fn rounding_is_as_measured() {
         "Cortex-M4F [instructions]",
     ];
     block(PAGE, "rounding", &(over + &table(&head, &text)));
-    block(PAGE, "rounding, scene by scene", &sentences);
 }
 
 #[test]
