@@ -50,6 +50,7 @@ pages! {
     modes "docs/modes.md"
     near_rigid "docs/near-rigid.md"
     paper "docs/paper.md"
+    peers "docs/validation/peers.md"
     planar "docs/planar.md"
     play "docs/play.md"
     precision "docs/precision.md"

@@ -5,5 +5,6 @@ mod contents;
 mod engines;
 mod figures;
 mod measures;
+mod peers;
 mod rounding;
 mod units;
