@@ -153,7 +153,7 @@ pub fn run<M: dbd_kernel::ModelOwner, S: Scheme>(
 ) -> State<M> {
     let mut plant = Plant::new(model, scheme, step).unwrap();
     for _ in 0..steps {
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
     }
     plant.state().clone()
 }

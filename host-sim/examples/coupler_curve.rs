@@ -21,7 +21,7 @@ pub fn curve() -> Result<[f64; 3], Box<dyn Error>> {
     let mut plant = plant(&scene, &Method::default(), 2e-5)?;
     let (mut low, mut high, mut largest) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 0.0_f64);
     while plant.steps() < 12_500 {
-        plant.advance(25).ok()?;
+        plant.advance(25)?;
         let vector = |readout| plant.read(readout).and_then(|reading| reading.vector());
         let (Some(p), Some(f)) = (vector(&point), vector(&force)) else {
             return Err("blind".into());

@@ -45,7 +45,7 @@ pub fn follow(looks: u32) -> Result<f64, Box<dyn Error>> {
         }
         let gap = plant.read(&tool).and_then(|r| r.vector()).ok_or("blind")? - path(t);
         furthest = if t > 1.0 { furthest.max(gap.dot(gap).sqrt()) } else { 0.0 };
-        plant.advance(5).ok()?;
+        plant.advance(5)?;
     }
     Ok(furthest)
 }

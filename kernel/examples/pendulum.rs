@@ -33,7 +33,7 @@ pub fn period() -> Result<f64, Box<dyn Error>> {
         Readout::Point { body: BodyIndex(0), point: Vec3::new(0.0, -0.5, 0.0) };
     let (mut before, mut passed) = (0.0, Vec::new());
     while passed.len() < 11 {
-        plant.step().ok()?;
+        plant.step()?;
         let x =
             plant.read(&endpoint).and_then(|reading| reading.vector()).ok_or("no such point")?.x;
         if before < 0.0 && x >= 0.0 {

@@ -90,7 +90,7 @@ where
     /// # Errors
     /// [`SnapshotError::Buffer`], [`SnapshotError::Failed`].
     pub fn snapshot(&self, buffer: &mut [u8]) -> Result<usize, SnapshotError> {
-        if !self.status().is_running() {
+        if self.status().is_err() {
             return Err(SnapshotError::Failed);
         }
         let size = self.snapshot_size();

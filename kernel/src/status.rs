@@ -1,18 +1,6 @@
-//! The result of a step. A failure latches: no later step runs until the failure is cleared explicitly.
+//! Failures of steps. A failure latches: no later step runs until the failure is cleared explicitly.
 
 use crate::index::{BodyIndex, LawIndex, TorsionIndex};
-
-/// The status of a plant after a step.
-#[must_use = "a failed step leaves the plant where it failed"]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
-pub enum Status {
-    /// No failure.
-    #[default]
-    Running,
-    /// The plant failed and keeps the state of the failure.
-    Failed(Failure),
-}
 
 /// Why and where a plant failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,25 +76,6 @@ pub enum Cause {
 /// \[rad\] the largest rotation of a body in a step: the rotation polynomials lose digits from 0.3 on, and forces that
 /// rotate with the body are undersampled well before that.
 pub const MAX_TURN: f64 = 1.0;
-
-impl Status {
-    /// Whether the plant has not failed.
-    #[must_use]
-    pub const fn is_running(self) -> bool {
-        matches!(self, Status::Running)
-    }
-
-    /// The status as a result.
-    ///
-    /// # Errors
-    /// The failure, if any.
-    pub const fn ok(self) -> Result<(), Failure> {
-        match self {
-            Status::Running => Ok(()),
-            Status::Failed(failure) => Err(failure),
-        }
-    }
-}
 
 impl core::fmt::Display for Failure {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

@@ -18,7 +18,7 @@ use crate::plant::Plant;
 use crate::real::Real;
 use crate::schemes::Scheme;
 use crate::space::{Linear as _, Moment as _};
-use crate::status::{Cause, Status};
+use crate::status::{Cause, Failure};
 
 /// The factor by which the frequency bound may exceed the scheme's limit or, where it was above that at the start, its
 /// initial value.
@@ -58,14 +58,15 @@ impl<R: Real> Watch<R> {
 
     /// Checks the next body's mounts and, if requested, the energy. A plant that fails the check is not stepped until
     /// it is cleared, reset or restored.
-    pub fn look<H, S>(&mut self, plant: &mut Plant<H, S>) -> Status
+    ///
+    /// # Errors
+    /// The latched failure of the plant.
+    pub fn look<H, S>(&mut self, plant: &mut Plant<H, S>) -> Result<(), Failure>
     where
         H: Deref<Target: ModelOwner<Precision: Geometry<Real = R>> + Sized>,
         S: Scheme,
     {
-        if !plant.status().is_running() {
-            return plant.status();
-        }
+        plant.status()?;
         let row = self.next;
         let square = plant.with_places(|view, places, state| {
             square_of(view, places, state.bodies.as_ref(), (state.turns.as_ref(), &state.laws), row)

@@ -71,7 +71,7 @@ fn a_difference_is_an_error_with_step_body_and_component() {
             plant.set_state(&state).unwrap();
         }
         recording.look(plant.as_ref()).unwrap();
-        plant.advance(50).ok().unwrap();
+        plant.advance(50).unwrap();
     }
     fs::write(&file, recording.text()).unwrap();
     let done = compared(&folder, &scene, &file, &[]);

@@ -234,7 +234,7 @@ fn export_writes_what_a_build_script_writes() {
     let done = call(&[&["export", "cart-pendulum"][..], &options].concat());
     assert_eq!(done.exit, Exit::Done, "{}", done.err);
     assert!(done.out == build.source().unwrap().source);
-    assert!(done.out.contains("_SCHEME: dbd_kernel::schemes::Dbd = "));
+    assert!(done.out.contains("_SCHEME: dbd_kernel::Dbd = "));
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/four-bar.toml");
     let solved = Build::scene(scene).precision("f32").scheme("generalized-alpha").rho(0.2);
     let options = ["--precision", "f32", "--scheme", "generalized-alpha", "--rho", "0.2"];

@@ -27,7 +27,7 @@ fn recorded(name: &str) -> String {
         let reading = plant.read(&angle).unwrap().scalar().unwrap();
         integral += 1e-3 * reading;
         plant.set(drive, -8.0 * reading - integral, 0.0).unwrap();
-        plant.advance(2).ok().unwrap();
+        plant.advance(2).unwrap();
     }
     run.text()
 }

@@ -16,7 +16,7 @@ fn look(name: &str, samples: u64, mut visit: impl FnMut(&Plant<&SceneModel<F64>,
     let mut plant = Plant::new(&scene.model, Leapfrog, h).unwrap();
     visit(&plant);
     for sample in 1..=samples {
-        plant.advance(steps * sample / samples - plant.state().step).ok().unwrap();
+        plant.advance(steps * sample / samples - plant.state().step).unwrap();
         visit(&plant);
     }
 }

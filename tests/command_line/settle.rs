@@ -27,7 +27,7 @@ fn fastest(scene: &Scene, step: f64, steps: u64) -> f64 {
     let mut plant = plant(scene, &Method::default(), step).unwrap();
     let mut most = 0.0_f64;
     for _ in 0..steps {
-        assert!(plant.advance(1).is_running());
+        plant.advance(1).unwrap();
         for body in &plant.state().bodies {
             most = most.max(body.velocity.dot(body.velocity).sqrt());
         }

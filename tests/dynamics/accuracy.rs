@@ -45,7 +45,7 @@ impl Race {
         let (mut states, mut square) = (Vec::new(), 0.0);
         for _ in 0..SAMPLES {
             for _ in 0..stride {
-                plant.step().ok().unwrap();
+                plant.step().unwrap();
                 if watched {
                     let error = energy(&self.model, plant.state(), h).total() - start;
                     square += error * error;

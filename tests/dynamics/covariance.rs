@@ -239,7 +239,7 @@ fn end<P: Geometry, S: Scheme>(
 ) -> (Bodies, u64) {
     let scene = build(change);
     let mut plant = Plant::new(&scene.model, scheme, step).unwrap();
-    plant.advance((TIME / step).round() as u64).ok().unwrap();
+    plant.advance((TIME / step).round() as u64).unwrap();
     (plant.state().bodies.iter().map(BodyState::convert).collect(), plant.hash())
 }
 

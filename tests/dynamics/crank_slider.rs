@@ -42,7 +42,7 @@ fn figures<S: Scheme>(model: &SceneModel<F64>, scheme: S, steps: u64) -> Figures
     let mass = model.bodies[SLIDER].mass + model.bodies[SPIDER].mass;
     let mut after = Vec::new();
     for _ in 0..steps {
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
         let bodies = &plant.state().bodies;
         top_speed = top_speed.max(bodies[CRANK].angular_velocity.z.abs());
         let (p, q) = (bodies[SLIDER].position, bodies[SLIDER].orientation);

@@ -60,7 +60,7 @@ fn hung_with(joint: &str, realisation: &str, damping: f64, more: &str) -> Scene 
 /// \[m\] positions at the end.
 fn end<P: Geometry, S: Scheme>(model: &SceneModel<P>, scheme: S, step: f64) -> Vec<[f64; 3]> {
     let mut plant = Plant::new(model, scheme, step).unwrap();
-    plant.advance((TIME / step).round() as u64).ok().unwrap();
+    plant.advance((TIME / step).round() as u64).unwrap();
     let bodies: &[BodyState<P>] = &plant.state().bodies;
     bodies.iter().map(|body| P::position_to_f64(&body.position)).collect()
 }

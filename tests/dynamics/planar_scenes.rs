@@ -50,8 +50,8 @@ fn compared(scene: &Scene, planar: &Planar) -> Found {
     let mut found = Found::default();
     let per_instant = (duration(scene) / step / INSTANTS as f64) as u64;
     for _ in 0..INSTANTS {
-        assert!(whole.advance(per_instant).is_running() && flat.advance(per_instant).is_running());
-        assert!(fine.advance(2 * per_instant).is_running());
+        assert!(whole.advance(per_instant).is_ok() && flat.advance(per_instant).is_ok());
+        fine.advance(2 * per_instant).unwrap();
         let other = outward(planar, flat.state());
         let pairs = whole.state().bodies.iter().zip(&other.bodies);
         for ((own, other), start) in pairs.zip(&scene.model.initial) {
@@ -108,8 +108,8 @@ fn three_freedoms_are_those_of_six_at_rest_across() {
         let mut flat = Plant::new(&flat, SemiImplicitEuler, step).unwrap();
         let mut single = Plant::new(&single, SemiImplicitEuler, step).unwrap();
         let mut space = Plant::new(&planar.model, SemiImplicitEuler, step).unwrap();
-        assert!(flat.advance(1000).is_running() && space.advance(1000).is_running());
-        assert!(single.advance(1000).is_running());
+        assert!(flat.advance(1000).is_ok() && space.advance(1000).is_ok());
+        single.advance(1000).unwrap();
         for (row, own) in widen(flat.state()).bodies.iter().enumerate() {
             let other = space.state().bodies[row];
             // In space the dampers of guides act off the plane, too.

@@ -116,7 +116,7 @@ fn band<P: Geometry>(scene: &Scene, damped: bool) -> f64 {
             }
         }
         if n < steps {
-            plant.step().ok().unwrap_or_else(|failure| panic!("{}: {failure}", scene.name));
+            plant.step().unwrap_or_else(|failure| panic!("{}: {failure}", scene.name));
         }
     }
     worst / kinetic

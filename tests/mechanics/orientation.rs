@@ -33,7 +33,7 @@ fn worst_change<P: Geometry>() -> f64 {
     let start = momentum(&plant.state().bodies[0]);
     let (mut worst, mut nearest) = (0.0_f64, 1.0_f64);
     for _ in 0..(10.0 / h).round() as u32 {
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
         let body: BodyState<F64> = plant.state().bodies[0].convert();
         let vertical = body.orientation.rotation().z;
         nearest = nearest.min(vertical.y.hypot(vertical.z));
@@ -69,7 +69,7 @@ fn worst_change_at<P: Geometry, S: Scheme>(scheme: S, turn: f64) -> f64 {
     let start = momentum(&plant.state().bodies[0]);
     let mut worst = 0.0_f64;
     for _ in 0..(20.0 / h).round() as u32 {
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
         let change = momentum(&plant.state().bodies[0]) - start;
         worst = worst.max(change.dot(change).sqrt());
     }
@@ -124,7 +124,7 @@ fn backward_difference<P: Geometry>(coordinate: f64) -> [f64; 2] {
     let (mut squares, mut largest, steps) = (0.0, 0.0_f64, 2_000);
     let mut before: BodyState<F64> = plant.state().bodies[0].convert();
     for _ in 0..steps {
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
         let now: BodyState<F64> = plant.state().bodies[0].convert();
         for i in 0..3 {
             let rate = (now.position.to_f64()[i] - before.position.to_f64()[i]) / h;
@@ -190,7 +190,7 @@ impl Case {
         let mut changes = 0;
         for _ in 0..steps {
             let before = plant.state().bodies.clone();
-            plant.step().ok().unwrap();
+            plant.step().unwrap();
             let pairs = before.iter().zip(&plant.state().bodies);
             changes +=
                 pairs.filter(|(a, b)| a.orientation.sequence != b.orientation.sequence).count();
@@ -239,7 +239,7 @@ fn a_torsion_spring_winds_through_the_pole() {
         let mut plant = Plant::new(&model, Pefrl, 1e-3).unwrap();
         let mut worst = 0.0_f64;
         for n in 1..=500 {
-            plant.advance(10).ok().unwrap();
+            plant.advance(10).unwrap();
             let angle = plant
                 .read(&Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO })
                 .unwrap()

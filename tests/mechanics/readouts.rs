@@ -2,13 +2,12 @@
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::Law;
 use dbd_kernel::readouts::{Reading, Readout, each_force, each_tension, read};
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    BodyIndex, BodyState, F32, F64, Geometry, Leapfrog, Load, LoadFrame, Planar32, Planar64, Plant,
-    Real as _, Vec3,
+    BodyIndex, BodyState, F32, F64, Geometry, InputIndex, Leapfrog, Load, LoadFrame, Planar32,
+    Planar64, Plant, Real as _, Vec3,
 };
 use dbd_tests::{Bench, at, scene, scene_names, turned};
 
@@ -26,7 +25,7 @@ fn angles_are_unwrapped_and_rates_signed() {
     let body = model.add_body(1.0, [0.25; 3], state).unwrap();
     model.add_torsion_spring([WORLD, body], [0.0, 0.0, 1.0], 0.0, 0.0, 0.0).unwrap();
     let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
-    plant.advance(5_000).ok().unwrap();
+    plant.advance(5_000).unwrap();
     let angle = plant
         .read(&Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO })
         .unwrap()
@@ -114,7 +113,7 @@ fn pulled<P: Geometry>(damping: f64, tolerance: f64) {
     model.add_input(pull, 7.0).unwrap();
     model.add_table(pull, &[[0.0, -3.0], [1.0, 9.0]], true).unwrap();
     let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
-    plant.advance(40).ok().unwrap();
+    plant.advance(40).unwrap();
     let close = |x: f64, y: f64| (x - y).abs() < tolerance;
     let mut on_b = Vec3::<f64>::ZERO;
     for group in 0..2 {
@@ -210,7 +209,7 @@ fn what_a_table_drives_is_read_at_its_time() {
             }
             other => panic!("{other:?}"),
         }
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
     }
     // One evaluation per step, one to begin with, one where the tables jump.
     assert_eq!(plant.evaluations(), 62);
@@ -229,7 +228,7 @@ fn all_tensions_and_forces_are_those_read_one_by_one() {
         let scene = scene(name);
         let model = &scene.model;
         let mut plant = Plant::new(model, Leapfrog, 1e-4).unwrap();
-        plant.advance(100).ok().unwrap();
+        plant.advance(100).unwrap();
         let one = |readout| read(model, plant.state(), 1e-4, &readout).unwrap();
         let (mut tensions, mut forces) = (Vec::new(), Vec::new());
         each_tension(model, plant.state(), |group, tension| tensions.push((group, tension)));
@@ -270,7 +269,7 @@ fn loaded<P: Geometry>() {
     let (mut before, mut x) = look(&plant);
     let (mut work, mut begun) = (0.0, before);
     for n in 0..1_000 {
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
         let (total, now) = look(&plant);
         let acts = (500..750).contains(&n);
         let done = if acts { 10.0 * (now[0] - x[0]) + 2.0 * (now[1] - x[1]) } else { 0.0 };

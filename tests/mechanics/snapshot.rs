@@ -27,20 +27,20 @@ fn busy<P: Geometry>() -> Bench<P> {
 
 fn resumes<P: Geometry, S: Scheme>(scheme: S) {
     let model = busy::<P>();
-    let input = dbd_kernel::index::InputIndex(0);
+    let input = dbd_kernel::InputIndex(0);
     let mut whole = Plant::new(&model, scheme, 1e-4).unwrap();
     let mut bytes = vec![0; whole.snapshot_size()];
     // 500 steps lie within the load's window.
-    whole.advance(250).ok().unwrap();
+    whole.advance(250).unwrap();
     whole.set_input(input, 0.7).unwrap();
-    whole.advance(250).ok().unwrap();
+    whole.advance(250).unwrap();
     assert_eq!(whole.snapshot(&mut bytes), Ok(bytes.len()));
-    whole.advance(500).ok().unwrap();
+    whole.advance(500).unwrap();
     let mut other = Plant::new(&model, scheme, 1e-4).unwrap();
-    other.advance(77).ok().unwrap();
+    other.advance(77).unwrap();
     other.restore(&bytes).unwrap();
     assert_eq!(other.state().step, 500);
-    other.advance(500).ok().unwrap();
+    other.advance(500).unwrap();
     assert_eq!(whole.hash(), other.hash(), "{} {}", S::NAME, P::NAME);
 }
 
@@ -69,10 +69,10 @@ fn a_restored_plant_goes_on_with_the_same_bits() {
 fn every_flipped_bit_is_refused_and_changes_nothing() {
     let model = busy::<F32>();
     let mut plant = Plant::new(&model, Leapfrog, 1e-4).unwrap();
-    plant.advance(10).ok().unwrap();
+    plant.advance(10).unwrap();
     let mut bytes = vec![0; plant.snapshot_size()];
     plant.snapshot(&mut bytes).unwrap();
-    plant.advance(5).ok().unwrap();
+    plant.advance(5).unwrap();
     let before = plant.hash();
     for bit in 0..bytes.len() * 8 {
         bytes[bit / 8] ^= 1 << (bit % 8);
@@ -117,7 +117,7 @@ fn snapshots_of_other_models_steps_versions_and_lengths_are_refused() {
 fn refusal<A: Scheme, B: Scheme>(from: A, to: B) -> Result<(), SnapshotError> {
     let model = busy::<F64>();
     let mut plant = Plant::new(&model, from, 1e-4).unwrap();
-    plant.advance(3).ok().unwrap();
+    plant.advance(3).unwrap();
     let mut bytes = vec![0; plant.snapshot_size()];
     plant.snapshot(&mut bytes).unwrap();
     let mut other = Plant::new(&model, to, 1e-4).unwrap();

@@ -3,11 +3,10 @@
 
 use dbd_kernel::elements::input::{Input, InputKind};
 use dbd_kernel::elements::source::Source;
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::InputError;
 use dbd_kernel::{
-    Body, F32, F64, Fixed, Geometry, Leapfrog, LoadFrame, Model, ModelOwner, Pefrl, Planar64,
-    Plant, Rk4, Scheme, Vec3,
+    Body, F32, F64, Fixed, Geometry, InputIndex, Leapfrog, LoadFrame, Model, ModelOwner, Pefrl,
+    Planar64, Plant, Rk4, Scheme, Vec3,
 };
 use dbd_scene::{Scene, SceneModel};
 use dbd_study::reference::Mechanism;
@@ -39,7 +38,7 @@ fn end<S: Scheme>(scene: &Scene, scheme: S, step: f64) -> f64 {
 fn end_in<P: Geometry, S: Scheme>(scene: &Scene, scheme: S, step: f64) -> f64 {
     let model: SceneModel<P> = scene.model.convert();
     let mut plant = Plant::new(&model, scheme, step).unwrap();
-    plant.advance((1.0 / step).round() as u64).ok().unwrap();
+    plant.advance((1.0 / step).round() as u64).unwrap();
     P::position_to_f64(&plant.state().bodies[0].position)[0]
 }
 
@@ -133,13 +132,13 @@ fn every_precision_follows_and_a_snapshot_goes_on_with_the_same_bits() {
         let input = InputIndex(0);
         let mut plant = Plant::new(&scene.model, Leapfrog, 1e-3).unwrap();
         assert_eq!(plant.set_input(input, 1.0), Err(InputError::Table(input)));
-        plant.advance(333).ok().unwrap();
+        plant.advance(333).unwrap();
         let state = plant.state().clone();
-        plant.advance(400).ok().unwrap();
+        plant.advance(400).unwrap();
         let mut other = Plant::new(&scene.model, Leapfrog, 1e-3).unwrap();
         assert_eq!(plant.fingerprint(), other.fingerprint(), "{source}");
         other.set_state(state).unwrap();
-        other.advance(400).ok().unwrap();
+        other.advance(400).unwrap();
         assert_eq!(plant.hash(), other.hash(), "{source}");
         let free = cart(FORCE);
         let none = Plant::new(&free.model, Leapfrog, 1e-3).unwrap();
@@ -188,8 +187,8 @@ fn a_const_model_has_the_bits_of_the_scene() {
     assert_eq!(model.view().sources, scene.model.sources);
     let mut flash = Plant::new(&model, Leapfrog, 1e-3).unwrap();
     let mut heap = Plant::new(&scene.model, Leapfrog, 1e-3).unwrap();
-    flash.advance(1000).ok().unwrap();
-    heap.advance(1000).ok().unwrap();
+    flash.advance(1000).unwrap();
+    heap.advance(1000).unwrap();
     assert_eq!(flash.hash(), heap.hash());
     // x(1) = x0 + F̄·t²/2m + (A·cos φ/(m·ω))·t, as the sine ends where it began.
     let w = 10.0 * std::f64::consts::PI;
@@ -215,7 +214,7 @@ fn a_pendulum_on_a_shaken_pivot_stands_upside_down() {
         let model: SceneModel<Planar64> = scene.stepped().convert();
         let mut plant = Plant::new(&model, Leapfrog, 1e-4).unwrap();
         (0..2000).all(|_| {
-            plant.advance(10).ok().unwrap();
+            plant.advance(10).unwrap();
             let state = &scene.planar.as_ref().unwrap();
             let mut world = dbd_scene::widen(plant.state());
             state.states_outward(&mut world.bodies);
@@ -243,12 +242,12 @@ fn a_column_of_a_planar_scene_is_the_worlds() {
     let (flat, whole) = (read(true), read(false));
     let model: SceneModel<Planar64> = flat.stepped().convert();
     let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
-    plant.advance(1000).ok().unwrap();
+    plant.advance(1000).unwrap();
     let mut world = dbd_scene::widen(plant.state());
     flat.planar.as_ref().unwrap().states_outward(&mut world.bodies);
     let flat = world.bodies[0].position.z;
     let mut plant = Plant::new(&whole.model, Leapfrog, 1e-3).unwrap();
-    plant.advance(1000).ok().unwrap();
+    plant.advance(1000).unwrap();
     let whole = plant.state().bodies[0].position.z;
     assert!((flat - whole).abs() < 1e-9 && (whole - 0.75).abs() > 0.02, "{flat} {whole}");
 }

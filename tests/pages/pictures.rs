@@ -34,7 +34,7 @@ fn the_picture_of_the_readme_is_a_run() {
         let bodies = &plant.state().bodies;
         let pose = bodies.iter().map(|body| (body.position.to_f64(), body.orientation.to_f64()));
         poses.push(pose.collect());
-        plant.advance(steps).ok().unwrap();
+        plant.advance(steps).unwrap();
     }
     let head = |pose: &Pose| pose.last().unwrap().0;
     let way = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();

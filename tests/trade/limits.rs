@@ -31,7 +31,7 @@ fn largest_energy(scene: &Scene, method: &Method, step: f64) -> f64 {
     let mut plant = plant(scene, method, step).unwrap();
     let mut largest = 0.0_f64;
     while plant.steps() as f64 * step < 0.2 {
-        if !plant.advance(50).is_running() {
+        if plant.advance(50).is_err() {
             return f64::INFINITY;
         }
         largest = largest.max(plant.energy().total().abs());

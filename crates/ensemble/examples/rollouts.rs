@@ -6,8 +6,7 @@ use std::path::Path;
 use std::thread::available_parallelism;
 
 use dbd_ensemble::Ensemble;
-use dbd_kernel::index::InputIndex;
-use dbd_kernel::{F32, Leapfrog};
+use dbd_kernel::{F32, InputIndex, Leapfrog};
 use dbd_scene::{Scene, SceneModel};
 
 const CANDIDATES: usize = 64;
@@ -32,7 +31,7 @@ fn main() -> miette::Result<()> {
         for (candidate, upright) in upright.iter_mut().enumerate() {
             // The pendulum's y axis against the world's; an instance that failed stays as it failed.
             let tilt = rollouts.state(candidate).bodies[1].orientation.rotation().y.y;
-            *upright += u32::from(rollouts.status(candidate).is_running() && tilt > 0.98);
+            *upright += u32::from(rollouts.status(candidate).is_ok() && tilt > 0.98);
         }
     }
     let best = (0..CANDIDATES).max_by_key(|&candidate| upright[candidate]).unwrap_or(0);

@@ -76,7 +76,7 @@ impl<V: Register, S: InLanes> Members<V, S> {
     fn lumped_joint(&mut self) -> Option<()> {
         if self.present == Present::Members {
             let all = 0..self.plants.len();
-            let running = |&member: &usize| self.plants[member].status().is_running();
+            let running = |&member: &usize| self.plants[member].status().is_ok();
             let step = |member: usize| self.plants[member].state().step;
             let first = all.clone().find(running)?;
             let mut lumped_joints: Vec<usize> =
@@ -121,7 +121,7 @@ impl<V: Register, S: InLanes> Members<V, S> {
         if self.plants.iter().any(|plant| alone(plant.model())) {
             let mut running = false;
             for plant in &mut self.plants {
-                running |= plant.advance(steps).is_running();
+                running |= plant.advance(steps).is_ok();
             }
             return running;
         }
@@ -152,7 +152,7 @@ impl<V: Register, S: InLanes> Members<V, S> {
             let plant = &mut self.plants[self.lumped_joints[lane]];
             let made = plant.hash();
             plant.resume(gather::lane(&before, lane));
-            if !plant.advance(steps).is_running() {
+            if plant.advance(steps).is_err() {
                 self.running &= !(1 << lane);
             } else if plant.hash() != made {
                 self.present = Present::Members;

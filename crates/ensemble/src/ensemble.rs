@@ -7,9 +7,8 @@ use std::num::NonZeroUsize;
 use std::thread;
 
 use dbd_kernel::geometry::Float;
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::{InputError, PlantError, StateError};
-use dbd_kernel::{Plant, State, Status};
+use dbd_kernel::{Failure, InputIndex, Plant, State};
 use dbd_scene::SceneModel;
 
 use crate::alike::{Difference, difference};
@@ -180,7 +179,7 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
     ///
     /// # Panics
     /// If there is no such instance.
-    pub fn status(&mut self, instance: usize) -> Status {
+    pub fn status(&mut self, instance: usize) -> Result<(), Failure> {
         self.plant(instance).status()
     }
 

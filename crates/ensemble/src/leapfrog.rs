@@ -3,9 +3,8 @@
 //! `(models, h) => ensemble of either precision; (model, h, instruction set, threads) => steps per second`, see
 //! [`crate::pace()`].
 
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::InputError;
-use dbd_kernel::{F32, F64, Leapfrog, State, Status};
+use dbd_kernel::{F32, F64, Failure, InputIndex, Leapfrog, State};
 use dbd_scene::{SceneModel, rounded, widen};
 
 use crate::ensemble::{Ensemble, EnsembleError};
@@ -24,7 +23,7 @@ pub trait AnyEnsemble: Send {
     ///
     /// # Panics
     /// If there is no such instance.
-    fn status(&mut self, instance: usize) -> Status;
+    fn status(&mut self, instance: usize) -> Result<(), Failure>;
 
     /// The state of an instance.
     ///
@@ -76,7 +75,7 @@ impl<R: Number, S: InLanes + Send + 'static> AnyEnsemble for Ensemble<R, S> {
         self.advance(steps);
     }
 
-    fn status(&mut self, instance: usize) -> Status {
+    fn status(&mut self, instance: usize) -> Result<(), Failure> {
         self.status(instance)
     }
 

@@ -30,14 +30,14 @@
 //! let mut printed = Recorder::begin(String::new(), &head)?; // or a console
 //! for _ in 0..=300 {
 //!     printed.look(&plant, &[])?; // every hundredth step
-//!     plant.step().ok()?;
+//!     plant.step()?;
 //! }
 //! let text = printed.finish()?;
 //!
 //! plant.reset();
 //! let mut comparison = Comparison::new(Golden::read(&text).unwrap(), head, Tolerance::Bits).unwrap();
 //! while let Some(due) = comparison.due() {
-//!     plant.advance(due - plant.state().step).ok()?;
+//!     plant.advance(due - plant.state().step)?;
 //!     comparison.sample(&plant, &[]).unwrap();
 //! }
 //! assert_eq!(comparison.finish().unwrap().samples, 4);

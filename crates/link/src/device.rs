@@ -2,11 +2,9 @@
 
 use core::ops::Deref;
 
-use dbd_kernel::geometry::Geometry;
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::readouts::{Reading, Readout};
-use dbd_kernel::{Plant, Real as _, Scheme};
+use dbd_kernel::{Geometry, InputIndex, Plant, Real as _, Scheme};
 
 use crate::message::{Identity, Name, Values};
 
@@ -135,7 +133,7 @@ where
     }
 
     fn running(&self) -> bool {
-        self.plant.status().is_running()
+        self.plant.status().is_ok()
     }
 
     fn hash(&self) -> u64 {

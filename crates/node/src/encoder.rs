@@ -3,8 +3,7 @@
 //! `(read-out, counts per revolution, errors) => counts`. The count is `⌊value/turn·counts⌋`. Noise, bias, delay and
 //! resolution are applied to the exact value first.
 
-use dbd_kernel::Real as _;
-use dbd_kernel::geometry::Geometry;
+use dbd_kernel::{Geometry, Real as _};
 
 use crate::fault::{Fault, WiringError};
 use crate::machine::Machine;

@@ -3,8 +3,7 @@
 //! `(read-out, threshold, hysteresis) => closed or open`. It closes at the threshold and opens again only beyond the
 //! hysteresis, like a lever switch.
 
-use dbd_kernel::Real as _;
-use dbd_kernel::geometry::Geometry;
+use dbd_kernel::{Geometry, Real as _};
 
 use crate::fault::{Fault, WiringError};
 use crate::machine::Machine;

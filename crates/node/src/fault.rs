@@ -2,9 +2,8 @@
 
 use core::fmt;
 
-use dbd_kernel::Failure;
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::InputError;
+use dbd_kernel::{Failure, InputIndex};
 
 /// A sensor or an actuator is not wired, or wired wrongly.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,12 +5,10 @@
 
 use core::ops::Deref;
 
-use dbd_kernel::geometry::Geometry;
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::plant::InputError;
 use dbd_kernel::readouts::{Reading, Readout};
-use dbd_kernel::{Plant, Scheme, Status};
+use dbd_kernel::{Failure, Geometry, InputIndex, Plant, Scheme};
 
 use crate::number::Number;
 
@@ -31,10 +29,10 @@ pub trait Machine {
     fn read(&self, readout: &Readout<Self::Precision>) -> Option<Reading<Self::Real>>;
 
     /// Steps until `steps` are done or one fails.
-    fn advance(&mut self, steps: u64) -> Status;
+    fn advance(&mut self, steps: u64) -> Result<(), Failure>;
 
     /// The status of the last step.
-    fn status(&self) -> Status;
+    fn status(&self) -> Result<(), Failure>;
 
     /// Steps since t = 0.
     fn steps(&self) -> u64;
@@ -67,11 +65,11 @@ where
     }
 
     #[inline]
-    fn advance(&mut self, steps: u64) -> Status {
+    fn advance(&mut self, steps: u64) -> Result<(), Failure> {
         Plant::advance(self, steps)
     }
 
-    fn status(&self) -> Status {
+    fn status(&self) -> Result<(), Failure> {
         Plant::status(self)
     }
 

@@ -7,9 +7,7 @@
 //! every machine.
 
 use dbd_kernel::chain::limited;
-use dbd_kernel::geometry::Geometry;
-use dbd_kernel::index::InputIndex;
-use dbd_kernel::real::Real as _;
+use dbd_kernel::{Geometry, InputIndex, Real as _};
 
 use crate::fault::{Fault, WiringError};
 use crate::machine::Machine;

@@ -6,9 +6,8 @@
 //! of the filter only its sample rate has an effect. FIFO, auxiliary bus and self-test are not implemented: their
 //! registers store written values, the FIFO is empty.
 
-use dbd_kernel::geometry::Geometry;
 use dbd_kernel::readouts::{Reading, Readout};
-use dbd_kernel::real::Real as _;
+use dbd_kernel::{Geometry, Real as _};
 
 use crate::fault::{Fault, Problem, WiringError};
 use crate::i2c::I2cPart;

@@ -6,8 +6,6 @@
 
 use core::num::NonZeroU64;
 
-use dbd_kernel::Status;
-
 use crate::fault::{Fault, Problem, WiringError};
 use crate::machine::Machine;
 use crate::part::{Part, Wires};
@@ -65,10 +63,8 @@ impl<M: Machine, D: Part<M>> Node<M, D> {
     #[inline]
     fn try_step(&mut self) -> Result<(), Fault> {
         self.parts.drive(&mut self.machine)?;
-        match self.machine.advance(1) {
-            Status::Failed(failure) => Err(Fault::Plant(failure)),
-            _ => self.parts.sense(&self.machine),
-        }
+        self.machine.advance(1).map_err(Fault::Plant)?;
+        self.parts.sense(&self.machine)
     }
 
     #[cold]

@@ -5,8 +5,7 @@
 
 use core::cell::RefCell;
 
-use dbd_kernel::Real as _;
-use dbd_kernel::index::InputIndex;
+use dbd_kernel::{InputIndex, Real as _};
 
 use crate::fault::{Fault, Problem, WiringError};
 use crate::machine::Machine;

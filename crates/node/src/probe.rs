@@ -3,10 +3,8 @@
 //! `(machine, read-out, axis) => number`. The read-out is checked at wiring, so that a wrong one fails at the start and
 //! not during a run.
 
-use dbd_kernel::Vec3;
-use dbd_kernel::geometry::Geometry;
 use dbd_kernel::readouts::{Reading, Readout};
-use dbd_kernel::real::Real;
+use dbd_kernel::{Geometry, Real, Vec3};
 
 use crate::fault::{Fault, Problem, WiringError};
 use crate::machine::Machine;

@@ -3,12 +3,11 @@
 //! `(inputs, steps) => state, energy, sensors`. All values are in double precision: inputs are rounded once to the
 //! plant's precision, outputs are the stored words, widened exactly.
 
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::{InputError, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::schedule::Signal;
 use dbd_kernel::snapshot::SnapshotError;
-use dbd_kernel::{BodyState, Energy, F64, State, Status};
+use dbd_kernel::{BodyState, Energy, F64, Failure, InputIndex, State};
 use dbd_scene::SceneModel;
 
 use crate::method::Method;
@@ -20,10 +19,10 @@ use crate::number_format::NumberFormat;
 /// or [`AnyPlant::restore`].
 pub trait AnyPlant: Send {
     /// One step.
-    fn step(&mut self) -> Status;
+    fn step(&mut self) -> Result<(), Failure>;
 
     /// `n` steps with held inputs; stops at a failure.
-    fn advance(&mut self, n: u64) -> Status;
+    fn advance(&mut self, n: u64) -> Result<(), Failure>;
 
     /// Sets an input and its rate until they are set again: a force \[N\], a torque \[N·m\], or the
     /// displacement \[m\] of an anchor with its velocity \[m/s\], which its dampers feel; the other
@@ -78,7 +77,7 @@ pub trait AnyPlant: Send {
     fn hash(&self) -> u64;
 
     /// The status of the last step.
-    fn status(&self) -> Status;
+    fn status(&self) -> Result<(), Failure>;
 
     /// \[s\] the present time: steps done times the step, never accumulated.
     fn time(&self) -> f64;

@@ -8,7 +8,6 @@
 
 use std::fmt;
 
-use dbd_kernel::Status;
 use dbd_scene::Scene;
 use miette::Diagnostic;
 
@@ -248,7 +247,7 @@ impl Search<'_> {
             self.spent += cost(self.scene, self.method, next - done);
             (self.progress)(self.spent as u64, self.budget as u64);
             done = next;
-            if matches!(status, Status::Failed(_)) {
+            if status.is_err() {
                 return false;
             }
         }

@@ -30,7 +30,7 @@
 //! let scene = Scene::load("scenes/four-bar.toml")?;
 //! let mut plant = plant(&scene, &Method::default(), 2e-5)?;
 //! while plant.time() < scene.duration {
-//!     plant.advance(500).ok()?;
+//!     plant.advance(500)?;
 //!     let crank = &plant.state().bodies[0];
 //!     println!("{:.2} s: {:?} m, {} J", plant.time(), crank.position, plant.energy().total());
 //! }

@@ -8,8 +8,7 @@ use dbd_kernel::energy::{energy, energy_with_extensions};
 use dbd_kernel::laws::Laws as _;
 use dbd_kernel::model::{Group, Law};
 use dbd_kernel::readouts::each_tension;
-use dbd_kernel::status::Cause;
-use dbd_kernel::{BodyState, Energy, F64, State};
+use dbd_kernel::{BodyState, Cause, Energy, F64, State};
 use dbd_scene::{OneSided, Scene, SceneModel};
 
 use crate::any::AnyPlant;

@@ -12,7 +12,6 @@ use dbd_kernel::energy::energy;
 #[cfg(feature = "comparison")]
 use dbd_kernel::euler::{EulerF32, EulerF64};
 use dbd_kernel::frequency::bound;
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::keep::Storage as _;
 use dbd_kernel::laws::Laws as _;
 use dbd_kernel::plant::{self as kernel, InputError, Plant, StateError};
@@ -20,8 +19,8 @@ use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::schedule::Signal;
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::{
-    BodyIndex, BodyState, Energy, F32, F64, Fixed, Geometry, Planar32, Planar64, Real as _, Scheme,
-    State, Status, Vec3,
+    BodyIndex, BodyState, Energy, F32, F64, Failure, Fixed, Geometry, InputIndex, Planar32,
+    Planar64, Real as _, Scheme, State, Vec3,
 };
 use dbd_scene::{Misfit, Planar, Scene, SceneModel, rounded, widen};
 
@@ -373,11 +372,11 @@ where
     Plant<Arc<SceneModel<P>>, S>: Send,
 {
     // Shares the function above, so that a step is compiled once.
-    fn step(&mut self) -> Status {
+    fn step(&mut self) -> Result<(), Failure> {
         self.plant.advance(1)
     }
 
-    fn advance(&mut self, n: u64) -> Status {
+    fn advance(&mut self, n: u64) -> Result<(), Failure> {
         self.plant.advance(n)
     }
 
@@ -433,7 +432,7 @@ where
         self.plant.hash()
     }
 
-    fn status(&self) -> Status {
+    fn status(&self) -> Result<(), Failure> {
         self.plant.status()
     }
 

@@ -2,9 +2,8 @@
 //!
 //! `reading => reading in f64 => one number per column of a trace`.
 
-use dbd_kernel::Real;
 use dbd_kernel::readouts::Reading;
-use dbd_kernel::vector::Vec3;
+use dbd_kernel::{Real, Vec3};
 
 /// The same reading in double precision, exactly.
 pub(crate) fn widened<R: Real>(reading: Reading<R>) -> Reading<f64> {

@@ -3,8 +3,7 @@
 //! `table => input of the model`. A type is one row of [`TYPES`]: its keys and its reader.
 
 use dbd_kernel::elements::input::InputKind;
-use dbd_kernel::index::InputIndex;
-use dbd_kernel::{BodyIndex, F64, Geometry, LoadFrame, Vec3};
+use dbd_kernel::{BodyIndex, F64, Geometry, InputIndex, LoadFrame, Vec3};
 
 use crate::assembly::NoAnchor;
 use crate::between::BodyName;

@@ -3,9 +3,8 @@
 //! `table => read-out of the kernel`. Read-outs are not part of the model, except for angles and their rates: where no
 //! torsion spring has the same axis, one without stiffness is added to count revolutions.
 
-use dbd_kernel::index::LawIndex;
 use dbd_kernel::readouts::{Readout, Slide};
-use dbd_kernel::{F64, Geometry, Vec3};
+use dbd_kernel::{F64, Geometry, LawIndex, Vec3};
 
 use crate::between::BodyName;
 use crate::columns::Taken;

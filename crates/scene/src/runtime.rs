@@ -2,10 +2,8 @@
 //!
 //! `assembly => model in any precision`. Steps run the same code, with the same bits, as for a const model.
 
-use dbd_kernel::body::Body;
 use dbd_kernel::elements::input::{Input, Knot};
 use dbd_kernel::elements::source::{Source, SourceLaw};
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::laws::Laws;
 use dbd_kernel::model::Plan;
 use dbd_kernel::model::{AllTerms, Group, LawsIn, ModelOwner, ModelRef};
@@ -15,8 +13,8 @@ use dbd_kernel::sources::SourceStep;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::words::Word;
 use dbd_kernel::{
-    BodyState, F64, Geometry, Load, PointBushing, PointOnLine, Real, Revolute, State,
-    TorsionSpring, Tsda, Universal,
+    Body, BodyState, F64, Geometry, InputIndex, Load, PointBushing, PointOnLine, Real, Revolute,
+    State, TorsionSpring, Tsda, Universal,
 };
 
 use crate::elimination::Elimination;

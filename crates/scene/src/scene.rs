@@ -4,9 +4,8 @@
 
 use std::borrow::Cow;
 
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
-use dbd_kernel::{BodyState, F64};
+use dbd_kernel::{BodyState, F64, InputIndex};
 
 use crate::columns::{ENERGY_COLUMNS, TIME_COLUMN, of_body};
 use crate::derived::DerivedBody;

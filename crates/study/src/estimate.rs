@@ -180,7 +180,7 @@ fn turning(scene: &Scene) -> usize {
     let longest = || Frequencies::of(scene).default_limit(&method, scene.duration);
     let stepped = step_of(scene, None, longest).ok().and_then(|step| {
         let mut plant = plant(scene, &method, step).ok()?;
-        plant.advance(STEPS).is_running().then(|| plant.state())
+        plant.advance(STEPS).is_ok().then(|| plant.state())
     });
     let Some(state) = stepped else { return all };
     let rates = state.bodies.iter().flat_map(|body| body.angular_velocity.to_f64());

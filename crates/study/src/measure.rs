@@ -100,7 +100,7 @@ impl<'c> Comparison<'c> {
         let mut monitor = Monitor::new(self.scene, plant.as_ref());
         let (mut samples, mut squares, mut peak, mut initial) = (Vec::new(), 0.0, 0.0_f64, None);
         for sample in 0..self.reference_solution.len() {
-            if sample > 0 && !plant.advance(steps).is_running() {
+            if sample > 0 && plant.advance(steps).is_err() {
                 return UNSTABLE;
             }
             let state = plant.state();

@@ -8,8 +8,7 @@
 use std::f64::consts::TAU;
 
 use dbd_kernel::forces::wrenches;
-use dbd_kernel::status::Cause;
-use dbd_kernel::{BodyState, F64, State, Vec3};
+use dbd_kernel::{BodyState, Cause, F64, State, Vec3};
 use dbd_plant::digits::significant;
 use dbd_scene::{Scene, SceneModel};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};

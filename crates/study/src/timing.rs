@@ -107,7 +107,7 @@ fn taker<'t>(scene: &Scene, mechanism: &'t Mechanism, way: &Way, step: f64) -> O
 fn take(plant: &mut dyn AnyPlant, mut steps: u64) {
     loop {
         let before = plant.steps();
-        if black_box(plant.advance(steps)).is_running() {
+        if black_box(plant.advance(steps)).is_ok() {
             return;
         }
         steps = steps.saturating_sub(plant.steps() - before);

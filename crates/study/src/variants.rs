@@ -197,7 +197,7 @@ pub(crate) fn sampled(
 ) -> Option<Vec<State>> {
     let mut states = vec![State::of(&plant.state())];
     for _ in 0..samples {
-        if !plant.advance(steps).is_running() {
+        if plant.advance(steps).is_err() {
             return None;
         }
         states.push(State::of(&plant.state()));

@@ -159,7 +159,7 @@ pub fn mark() {
 
 #[inline(never)]
 fn one_step<M: ModelOwner, S: Scheme>(plant: &mut Plant<&'static M, S>) -> bool {
-    plant.step().is_running()
+    plant.step().is_ok()
 }
 
 #[inline(never)]

@@ -78,7 +78,7 @@ impl Guarding<'_> {
 
 #[inline(never)]
 fn step<M: ModelOwner, S: Scheme>(guarded: &mut Guarded<M, S>) -> bool {
-    guarded.plant.step().is_running()
+    guarded.plant.step().is_ok()
 }
 
 #[inline(never)]
@@ -88,5 +88,5 @@ fn fault<M: ModelOwner, S: Scheme>(guarded: &mut Guarded<M, S>) -> bool {
 
 #[inline(never)]
 fn look<M: ModelOwner, S: Scheme>(guarded: &mut Guarded<M, S>) -> bool {
-    guarded.watch.look(&mut guarded.plant).is_running()
+    guarded.watch.look(&mut guarded.plant).is_ok()
 }

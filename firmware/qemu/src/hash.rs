@@ -7,7 +7,7 @@
 use core::str::FromStr;
 
 use dbd_kernel::model::ModelOwner;
-use dbd_kernel::{Fixed, Geometry, Plant, Scheme, Status};
+use dbd_kernel::{Fixed, Geometry, Plant, Scheme};
 
 use crate::models::{Shipped, Visitor, for_each, for_each_further, for_each_solved};
 use crate::say;
@@ -143,7 +143,7 @@ impl<C: InstructionCounter> Visitor for Hashing<'_, C> {
                 return;
             }
             while plant.state().step < next {
-                if let Status::Failed(failure) = plant.step() {
+                if let Err(failure) = plant.step() {
                     let step = failure.step;
                     let scene = shipped.scene;
                     say!("hash {} {}{} {} failed at {}", scene, S::NAME, variant, precision, step);

@@ -7,9 +7,8 @@
 
 use core::ffi::CStr;
 
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::model::ModelOwner;
-use dbd_kernel::{Geometry, Plant, Scheme};
+use dbd_kernel::{Geometry, InputIndex, Plant, Scheme};
 
 use crate::console::{load, save};
 use crate::models::{Shipped, Visitor, for_each_relayed};
@@ -80,7 +79,7 @@ impl Relay {
             }
         }
         let until = if self.part == Part::Begin { steps / 2 } else { steps };
-        if !plant.advance(until - plant.state().step).is_running() {
+        if !plant.advance(until - plant.state().step).is_ok() {
             return Err("it diverged");
         }
         if self.part == Part::Begin {

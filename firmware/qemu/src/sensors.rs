@@ -5,12 +5,11 @@
 //! bit is a changed interface: it needs a reason, as those of the plants do.
 
 use dbd_kernel::geometry::{Float, Named};
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::InputError;
 use dbd_kernel::random::Stream;
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::words::{Fnv1a, Word, WordVisitor as _};
-use dbd_kernel::{BodyIndex, Geometry, Real, Status, Vec3};
+use dbd_kernel::{BodyIndex, Failure, Geometry, InputIndex, Real, Vec3};
 use dbd_node::encoder::Counting as _;
 use dbd_node::i2c::I2cPart as _;
 use dbd_node::motor::Bridge as _;
@@ -238,18 +237,18 @@ impl<R: Number + Named> Machine for Rotor<R> {
         }
     }
 
-    fn advance(&mut self, steps: u64) -> Status {
+    fn advance(&mut self, steps: u64) -> Result<(), Failure> {
         let step = R::from_f64(STEP);
         for _ in 0..steps {
             self.rate = self.rate + self.torque * R::from_f64(10.0) * step;
             self.angle = self.angle + self.rate * step;
             self.steps += 1;
         }
-        Status::Running
+        Ok(())
     }
 
-    fn status(&self) -> Status {
-        Status::Running
+    fn status(&self) -> Result<(), Failure> {
+        Ok(())
     }
 
     fn steps(&self) -> u64 {

@@ -48,12 +48,12 @@ pub fn run() -> bool {
     let mut record = || -> Result<(), RecordError<&'static str>> {
         let mut recorder = Recorder::begin(Console::default(), &head)?;
         while recorder.look(&plant, &[])? && plant.state().step < STEPS {
-            if plant.advance(EVERY).ok().is_err() {
+            if plant.advance(EVERY).is_err() {
                 break;
             }
         }
         recorder.finish().map(drop)
     };
     let recorded = record();
-    recorded.is_ok() && plant.status().ok().is_ok()
+    recorded.is_ok() && plant.status().is_ok()
 }

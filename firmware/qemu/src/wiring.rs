@@ -8,9 +8,8 @@
 
 use core::f64::consts::TAU;
 
-use dbd_kernel::F32;
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
+use dbd_kernel::{F32, InputIndex};
 use dbd_node::as5047p::COUNTS;
 use dbd_node::{
     As5047p, Encoder, EncoderParameters, Errors, Motor, MotorParameters, Probe, Supply,

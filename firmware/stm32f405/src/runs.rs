@@ -5,7 +5,7 @@
 
 use core::fmt;
 
-use dbd_kernel::{Leapfrog, Plant, Status};
+use dbd_kernel::{Leapfrog, Plant, Failure};
 
 use crate::board::RATE;
 use crate::models::cart_pendulum::{CART_PENDULUM_F32, CART_PENDULUM_STEP, CartPendulumF32};
@@ -34,7 +34,7 @@ pub struct Report {
     step: u64,
     hash: u64,
     overruns: u32,
-    status: Status,
+    status: Result<(), Failure>,
 }
 
 impl Run {
@@ -77,10 +77,10 @@ impl Run {
             Shipped::FourBar(plant) => (plant.step(), plant.state().step),
             Shipped::CartPendulum(plant) => (plant.step(), plant.state().step),
         };
-        (step == self.steps || !status.is_running()).then(|| self.report(status, step))
+        (step == self.steps || status.is_err()).then(|| self.report(status, step))
     }
 
-    fn report(&self, status: Status, step: u64) -> Report {
+    fn report(&self, status: Result<(), Failure>, step: u64) -> Report {
         let hash = match &self.plant {
             Shipped::FourBar(plant) => plant.hash(),
             Shipped::CartPendulum(plant) => plant.hash(),
@@ -93,7 +93,7 @@ impl Run {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { scene, steps_per_tick, step, hash, overruns, .. } = self;
-        if let Status::Failed(failure) = self.status {
+        if let Err(failure) = self.status {
             return write!(f, "error: {scene} failed at step {step}: {:?}", failure.cause);
         }
         writeln!(f, "hash {scene} leapfrog f32 {step} {hash:016x}")?;

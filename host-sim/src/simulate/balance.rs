@@ -112,7 +112,7 @@ impl Balance {
     /// Follows the run to this number of steps.
     pub fn advance(&mut self, steps: u64) {
         let mut state = self.plant.state();
-        while state.step < steps && self.plant.status().is_running() {
+        while state.step < steps && self.plant.status().is_ok() {
             state = self.step(&state);
         }
     }

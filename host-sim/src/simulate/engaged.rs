@@ -3,10 +3,9 @@
 //! `(scene; plant at each look) => engagements`. An interaction is engaged while its quantity `depth` is above 0.
 //! Engagements between two checks are not detected.
 
-use dbd_kernel::F64;
-use dbd_kernel::index::LawIndex;
 use dbd_kernel::laws::Laws as _;
 use dbd_kernel::readouts::{Reading, Readout};
+use dbd_kernel::{F64, LawIndex};
 use dbd_plant::AnyPlant;
 use dbd_plant::digits::significant;
 use dbd_plant::time::{display, rounded};

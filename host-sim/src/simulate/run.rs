@@ -6,7 +6,7 @@
 use std::io;
 use std::time::{Duration, Instant};
 
-use dbd_kernel::{Energy, F64, State, Status};
+use dbd_kernel::{Energy, F64, Failure, State};
 use dbd_plant::monitor::{Monitor, Opening, Reversal, RunFailure, Turning, Verdict};
 use dbd_plant::number_format::NumberFormat;
 use dbd_plant::readings::append;
@@ -110,7 +110,7 @@ pub fn simulate(
             Ok(steps) => steps,
             Err(run_failure) => break Some(run_failure),
         };
-        if let Status::Failed(failure) = course.advance(steps, &mut wall) {
+        if let Err(failure) = course.advance(steps, &mut wall) {
             break Some(RunFailure::Step(failure.cause));
         }
     };
@@ -163,7 +163,7 @@ impl<'c> Course<'c> {
     }
 
     /// Steps, one by one where rounding is watched. `wall` grows by the time spent stepping.
-    fn advance(&mut self, steps: u64, wall: &mut Duration) -> Status {
+    fn advance(&mut self, steps: u64, wall: &mut Duration) -> Result<(), Failure> {
         let mut timed = |plant: &mut dyn AnyPlant, steps| {
             let start = Instant::now();
             let status = plant.advance(steps);
@@ -174,7 +174,7 @@ impl<'c> Course<'c> {
         let mut status = self.plant.status();
         for _ in 0..steps {
             status = timed(self.plant.as_mut(), 1);
-            if !status.is_running() {
+            if status.is_err() {
                 break;
             }
             rounding.look(self.plant.as_ref());

@@ -190,7 +190,7 @@ fn flight(at: f64, velocity: f64, spin: f64, steps: u64) -> (Result<(), Cause>, 
         .body(1.0, [0.1, 0.2, 0.2], start)
         .model_fixed::<1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0>();
     let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
-    let end = plant.advance(steps).ok().map_err(|failure| failure.cause);
+    let end = plant.advance(steps).map_err(|failure| failure.cause);
     (end, Fixed::position_to_f64(&plant.state().bodies[0].position)[1])
 }
 

@@ -8,8 +8,8 @@ use crate::geometry::Geometry;
 use crate::laws::end::Instant;
 use crate::laws::interaction::{Damper, Interaction, Need, SharesOf};
 use crate::laws::row::{Act, DamperPass, Row};
+use crate::laws::rows;
 use crate::laws::several::Several;
-use crate::laws::slice;
 use crate::words::{WordSource, WordVisitor};
 
 /// A model's laws: a table, a tuple of tables, or a container of a program that reads scenes.
@@ -120,7 +120,7 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
         wrenches: &mut [Wrench<P::Space>],
     ) -> Result<(), usize> {
         for (number, (law, state)) in self.iter().zip(states).enumerate() {
-            slice::act(&mut slice::row(law, state), at, act, wrenches).ok_or(number)?;
+            rows::act(&mut rows::row(law, state), at, act, wrenches).ok_or(number)?;
         }
         Ok(())
     }
@@ -141,12 +141,12 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
                 break;
             };
             let room = || T::Dampers::of(Damper::idle());
-            slice::sweep(&mut slice::row(law, state), order, shares.as_ref(), room, pass);
+            rows::sweep(&mut rows::row(law, state), order, shares.as_ref(), room, pass);
         }
     }
     fn look(&self, row: usize, states: &Self::States, look: &mut dyn FnMut(&mut dyn Row<P>)) {
         if let (Some(law), Some(state)) = (self.get(row), states.get(row)) {
-            look(&mut slice::row(law, &mut { *state }));
+            look(&mut rows::row(law, &mut { *state }));
         }
     }
     fn share_mut<'s>(
@@ -158,13 +158,13 @@ impl<P: Geometry, T: Interaction<P>, const N: usize> Laws<P> for [T; N] {
         shares.get_mut(row)?.as_mut().get_mut(damper)
     }
     fn visit(states: &Self::States, visitor: &mut dyn WordVisitor) {
-        slice::visit::<P, T>(states, visitor);
+        rows::visit::<P, T>(states, visitor);
     }
     fn fill(states: &mut Self::States, source: &mut dyn WordSource) {
-        slice::fill::<P, T>(states, source);
+        rows::fill::<P, T>(states, source);
     }
     fn memory(&self) -> Option<(&'static str, Need)> {
-        slice::memory::<P, T>(self)
+        rows::memory::<P, T>(self)
     }
 }
 

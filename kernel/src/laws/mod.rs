@@ -52,11 +52,11 @@ mod machine;
 mod plane_contact;
 mod rotor;
 mod row;
+mod rows;
 mod sensor;
 mod servo;
 mod several;
 mod shaft_friction;
-mod slice;
 mod slide_drive;
 mod slide_friction;
 mod slide_servo;
@@ -110,10 +110,10 @@ pub use list::Laws;
 pub use machine::Currents;
 pub use plane_contact::PlaneContact;
 pub use row::{Act, DamperPass, GroupForces, Row};
+#[doc(hidden)]
+pub use rows::{act, memory, row, sweep};
 pub use sensor::{HingeSensor, Sensed, SlideSensor};
 pub use several::Several;
-#[doc(hidden)]
-pub use slice::{act, memory, row, sweep};
 pub use slide_drive::{SlideDrive, SlideDriveFriction};
 pub use slide_friction::SlideFriction;
 pub use slide_servo::SlideServo;

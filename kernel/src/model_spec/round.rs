@@ -233,7 +233,7 @@ models! {
 /// dbd_kernel::model!(static PENDULUM_F32: F32 = PENDULUM);
 ///
 /// let mut plant = Plant::new(&PENDULUM_F32, Leapfrog, 1e-3)?;
-/// plant.advance(100).ok()?;
+/// plant.advance(100)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

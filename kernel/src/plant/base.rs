@@ -25,7 +25,7 @@ use crate::sensors::sample_over;
 use crate::solve::{self, LumpedJoint, MatrixWeights};
 use crate::sources::{self, SourceStep};
 use crate::state::State;
-use crate::status::{Cause, Failure, Status};
+use crate::status::{Cause, Failure};
 use crate::step::{Cache, Diagonal, Workspace, drive, sample_start};
 use crate::words::{Finite, is_finite};
 
@@ -53,7 +53,7 @@ where
     pub(crate) in_line: bool,
     pub(crate) damped_laws: bool,
     pub(crate) cache: Cache,
-    pub(crate) status: Status,
+    pub(crate) status: Result<(), Failure>,
 }
 
 /// The reference data of TSDAs in the precision of the model that `H` points to.
@@ -143,7 +143,7 @@ where
             in_line,
             damped_laws,
             cache: Cache::default(),
-            status: Status::Running,
+            status: Ok(()),
         })
     }
 
@@ -305,11 +305,11 @@ where
 
     /// Latches a failure.
     #[cold]
-    pub(crate) fn fail(&mut self, cause: Cause) -> Status {
+    pub(crate) fn fail(&mut self, cause: Cause) -> Result<(), Failure> {
         self.cache.fresh = false;
         self.cache.ready = false;
         self.cache.begun = false;
-        self.status = Status::Failed(Failure { cause, step: self.state.step });
+        self.status = Err(Failure { cause, step: self.state.step });
         self.status
     }
 
@@ -388,7 +388,7 @@ where
         self.cache.ready = false;
         self.cache.moved = false;
         self.cache.begun = false;
-        self.status = Status::Running;
+        self.status = Ok(());
         self.sample();
     }
 }

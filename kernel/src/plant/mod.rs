@@ -20,7 +20,7 @@ use crate::real::Real;
 pub use crate::refusal::{InputError, PlantError, StateError};
 use crate::schemes::Scheme;
 use crate::state::State;
-use crate::status::{Cause, MAX_TURN, Status};
+use crate::status::{Cause, Failure, MAX_TURN};
 use crate::step::{Stepper, Workspace};
 
 use base::{Base, PerBody, SignalsOf};
@@ -90,11 +90,14 @@ where
         self.base.signals_at(part)
     }
 
-    /// One step. A failure latches: the state stays as the failed step left it, and later calls
-    /// change nothing and return the same failure.
+    /// One step.
+    ///
+    /// # Errors
+    /// [`Failure`] names the cause and the step. It latches: the state stays as the failed step left it, and later
+    /// calls change nothing and return the same failure.
     #[inline]
-    pub fn step(&mut self) -> Status {
-        if !self.base.status.is_running() {
+    pub fn step(&mut self) -> Result<(), Failure> {
+        if self.base.status.is_err() {
             return self.base.status;
         }
         // Incremented first, so that no register holds the counter during the step.
@@ -109,7 +112,7 @@ where
             return self.fail(cause);
         }
         self.base.sample();
-        Status::Running
+        Ok(())
     }
 
     /// The scheme's step of this number.
@@ -124,11 +127,14 @@ where
 
     /// `n` steps with held inputs, or as many as succeed. Cheaper than `n` calls of [`Self::step`] where `n` is large;
     /// dearer for a single one.
-    pub fn advance(&mut self, n: u64) -> Status {
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn advance(&mut self, n: u64) -> Result<(), Failure> {
         // The whole plant samples tables over sensors, so it is borrowed for one step at a time.
         let stride = if self.base.samples_sensors() { 1 } else { n };
         let mut left = n;
-        while left > 0 && self.base.status.is_running() {
+        while left > 0 && self.base.status.is_ok() {
             left -= stride;
             if let Err(cause) = self.run(stride) {
                 return self.fail(cause);
@@ -175,7 +181,7 @@ where
 
     /// Latches a failure.
     #[cold]
-    pub(crate) fn fail(&mut self, cause: Cause) -> Status {
+    pub(crate) fn fail(&mut self, cause: Cause) -> Result<(), Failure> {
         self.base.fail(cause)
     }
 
@@ -204,7 +210,7 @@ where
     /// Clears a failure and leaves the state as it is. A state that is not finite, rotates too fast or has overflowed
     /// fails again.
     pub fn clear(&mut self) {
-        self.base.status = Status::Running;
+        self.base.status = Ok(());
     }
 
     /// Sets an input \[N, N·m, or m for an anchor, then at rest\], within its range; it is held until set again.
@@ -277,8 +283,11 @@ where
         &self.scheme
     }
 
-    /// The status of the last step.
-    pub fn status(&self) -> Status {
+    /// The result of the last step.
+    ///
+    /// # Errors
+    /// The latched failure.
+    pub fn status(&self) -> Result<(), Failure> {
         self.base.status
     }
 

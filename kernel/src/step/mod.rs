@@ -17,9 +17,11 @@ use core::ops::{Deref, DerefMut};
 
 pub use crate::body::Diagonal;
 use crate::body::{BodyState, Fall, Increment};
+pub use crate::damping::Damping;
 use crate::damping::{DampingMode, Share};
 use crate::elements::input::Input;
-use crate::forces::{self, At, Dampers, Evaluation, Instant, Memories, Unpushed, Wrench};
+use crate::forces::{self, Evaluation, Instant, Memories, Unpushed, Wrench};
+pub use crate::forces::{At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers};
 use crate::geometry::Geometry;
 use crate::laws::Laws;
 use crate::lockstep;

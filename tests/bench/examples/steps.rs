@@ -73,7 +73,7 @@ fn kernel<P: Geometry>(model: &SceneModel<F64>, step: f64, steps: u64) -> Result
     };
     advance(BEFORE);
     counted_steps(&mut advance, steps);
-    if plant.status().is_running() {
+    if plant.status().is_ok() {
         Ok(format!("{:016x}", plant.hash()))
     } else {
         Err("it failed".to_owned())

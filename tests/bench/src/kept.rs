@@ -12,9 +12,8 @@ use dbd_kernel::forces::{At, DampersLeft};
 use dbd_kernel::keep::NoStorage;
 use dbd_kernel::model::Terms;
 use dbd_kernel::plant::{Plant, PlantError};
-use dbd_kernel::status::Cause;
 use dbd_kernel::step::Stepper;
-use dbd_kernel::{BodyState, F64, Geometry, Real, Scheme, State};
+use dbd_kernel::{BodyState, Cause, F64, Geometry, Real, Scheme, State};
 use dbd_scene::SceneModel;
 
 /// What the energy that a scheme keeps is computed by.
@@ -71,7 +70,7 @@ impl<'m> Keeper<'m> {
         let mut start = state.clone();
         start.step = 0;
         self.kick.set_state(start.clone()).ok()?;
-        self.kick.step().ok().ok()?;
+        self.kick.step().ok()?;
         let kicked = self.kick.state();
         // h²/4·F·M⁻¹·F: the half kick is h/2·M⁻¹·F.
         let rows = model.bodies.iter().zip(&start.bodies).zip(&kicked.bodies);
@@ -90,7 +89,7 @@ impl<'m> Keeper<'m> {
         let mut bend = -2.0 * now.potential();
         for flight in &mut self.flights {
             flight.set_state(start.clone()).ok()?;
-            flight.step().ok().ok()?;
+            flight.step().ok()?;
             bend += energy(model, flight.state(), h).potential();
         }
         let own = now.total();
@@ -159,7 +158,7 @@ mod tests {
         let start = keeper.energies(plant.state()).unwrap();
         let mut most = [0.0_f64; 2];
         for _ in 0..200 {
-            plant.advance((1e-3 / step).round() as u64).ok().unwrap();
+            plant.advance((1e-3 / step).round() as u64).unwrap();
             let now = keeper.energies(plant.state()).unwrap();
             most[0] = most[0].max((now.own - start.own).abs());
             most[1] = most[1].max((now.kept - start.kept).abs());

@@ -88,7 +88,7 @@ mod tests {
         let start = keeper.energies(&widen(plant.state())).unwrap().kept;
         let mut most = 0.0_f64;
         for _ in 0..100 {
-            plant.advance(500).ok().unwrap();
+            plant.advance(500).unwrap();
             let now = keeper.energies(&widen(plant.state())).unwrap().kept;
             most = most.max((now - start).abs());
         }

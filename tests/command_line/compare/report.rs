@@ -24,7 +24,7 @@ fn recorded(text: &str, steps: u64, nudge: Option<u64>) -> String {
             plant.set_state(&state).unwrap();
         }
         recording.look(plant.as_ref()).unwrap();
-        plant.advance(10).ok().unwrap();
+        plant.advance(10).unwrap();
     }
     recording.text()
 }

@@ -62,7 +62,7 @@ fn distances(scene: &Scene, file: &str) -> Vec<(String, f64)> {
             let square: f64 = gaps.iter().map(|gap| gap * gap).sum();
             *largest = largest.max(square.sqrt());
         }
-        plant.advance(steps as u64).ok().unwrap();
+        plant.advance(steps as u64).unwrap();
     }
     largest
 }

@@ -30,7 +30,7 @@ fn run(late: usize, every: u64) -> (Recording, f64) {
             furthest = furthest.max(upright.abs());
         }
         plant.set(drive, value, 0.0).unwrap();
-        plant.advance(2).ok().unwrap();
+        plant.advance(2).unwrap();
     }
     (recording, furthest)
 }

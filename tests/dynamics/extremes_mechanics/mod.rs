@@ -119,7 +119,7 @@ fn follow(
     let mut worst = 0.0_f64;
     for _ in 0..samples {
         let status = plant.advance(steps / samples);
-        if !status.is_running() {
+        if status.is_err() {
             let steps = plant.steps();
             assert_eq!((plant.step(), plant.steps()), (status, steps), "a failure latches");
             return End::Failed;

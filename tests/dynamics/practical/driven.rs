@@ -66,7 +66,7 @@ pub fn gripper() -> String {
     assert!((open - 0.08).abs() < 1e-9, "{open}");
     assert_eq!(grip(&plant), [0.0, 0.0]);
 
-    plant.advance((0.65 / step).round() as u64).ok().unwrap();
+    plant.advance((0.65 / step).round() as u64).unwrap();
     let (pull, closed) = (read(&scene, &plant, "cylinder_force")[0], gap(&plant));
     let [from_right, from_left] = grip(&plant);
     let crank = plant.state().bodies[row(&scene, "right crank")].orientation;
@@ -89,7 +89,7 @@ pub fn gripper() -> String {
         assert!(q.v.dot(q.v).sqrt() < 5e-3, "{finger}: {:?}", q.v);
     }
 
-    plant.advance((0.55 / step).round() as u64).ok().unwrap();
+    plant.advance((0.55 / step).round() as u64).unwrap();
     let reopened = gap(&plant);
     assert!((reopened - open).abs() < 3e-3, "{reopened}");
     assert_eq!(grip(&plant), [0.0, 0.0]);
@@ -119,7 +119,7 @@ pub fn delta() -> String {
     let mut last = [0.0; 3];
     for n in 1..=steps {
         let torques: Vec<f64> = plant.state().signals.iter().map(|s| s.value).collect();
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
         let rates = ["rate1", "rate2", "rate3"].map(|name| read(&scene, &plant, name)[0]);
         for i in 0..3 {
             // The torque is held over the step, the rate is not.

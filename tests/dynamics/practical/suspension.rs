@@ -37,7 +37,7 @@ fn held_by(scene: &Scene, keep: impl Fn(&str) -> bool) -> SceneModel<F64> {
 fn after(scene: &Scene, time: f64) -> State<SceneModel<F64>> {
     let step = scene.step.expect("the scene states its step");
     let mut plant = Plant::new(&scene.model, Leapfrog, step).unwrap();
-    plant.advance((time / step).round() as u64).ok().unwrap();
+    plant.advance((time / step).round() as u64).unwrap();
     plant.state().clone()
 }
 
@@ -130,7 +130,7 @@ fn least_pressure(scene: &Scene, tyres: &[&str]) -> f64 {
     let mut plant = Plant::new(&scene.model, Leapfrog, step).unwrap();
     let mut least = f64::INFINITY;
     while plant.time() < scene.duration - 0.5 * step {
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
         for readout in &readouts {
             least = least.min(match plant.read(readout) {
                 Some(Reading::Scalar(tension)) => -tension,
@@ -192,7 +192,7 @@ pub fn hop() -> String {
     let mut plant = Plant::new(&scene.model, Leapfrog, step).unwrap();
     let mut heights = Vec::new();
     while plant.time() < scene.duration - 0.5 * step {
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
         heights.push((plant.time(), plant.state().bodies[knuckle].position.z));
     }
     let end = *heights.last().unwrap();

@@ -37,7 +37,7 @@ fn four_bar<P: Geometry, S: Scheme>(scheme: S) -> Recording {
     let mut plant: Owned<P, S> = plant("four-bar", scheme);
     let mut run = Recording::of_scene(&scene("four-bar"), &plant, 100, &[]).unwrap();
     while run.look(&plant).unwrap() && plant.state().step < 5_000 {
-        plant.advance(100).ok().unwrap();
+        plant.advance(100).unwrap();
     }
     run
 }
@@ -58,7 +58,7 @@ fn balance<P: Geometry, S: Scheme>(plant: &mut Owned<P, S>, mut look: impl FnMut
         });
         state[1] += 5_f64.to_radians();
         plant.set_input(drive, balance::force(state)).unwrap();
-        plant.advance(2).ok().unwrap();
+        plant.advance(2).unwrap();
     }
 }
 
@@ -90,7 +90,7 @@ fn a_plant_by_name_has_the_golden_bits() {
     let mut plant = dbd_plant::plant(&scene, &method, scene.step.unwrap()).unwrap();
     let mut run = Recording::of_scene(&scene, plant.as_ref(), 100, &[]).unwrap();
     while run.look(plant.as_ref()).unwrap() && plant.steps() < 5_000 {
-        plant.advance(100).ok().unwrap();
+        plant.advance(100).unwrap();
     }
     assert_eq!(run.text(), four_bar::<F32, _>(Leapfrog).text());
 }

@@ -132,11 +132,11 @@ fn run(scene: &Scene, random: &mut Rng) -> Result<(), Finding> {
     for _ in 0..plan.steps.min(4) {
         let status = plant.step();
         let state = plant.state();
-        running_is_finite(plant.as_ref(), status.is_running(), &state)?;
+        running_is_finite(plant.as_ref(), status.is_ok(), &state)?;
         for readout in &scene.readouts {
             let _ = plant.read(&readout.readout);
         }
-        if !status.is_running() || monitor.check(&state).is_err() {
+        if status.is_err() || monitor.check(&state).is_err() {
             break;
         }
     }

@@ -56,17 +56,17 @@ impl Target for SnapshotTarget {
         let wanted = wanted(&mut bytes, &valid);
         let before = plant.hash();
         if plant.restore(&wanted).is_err() {
-            let unchanged = plant.hash() == before && plant.status().is_running();
+            let unchanged = plant.hash() == before && plant.status().is_ok();
             Finding::unless(unchanged, "a refused snapshot changes nothing", || {
                 format!("{method:?}")
             })?;
             return Ok(Reach::Refused);
         }
-        running_is_finite(plant.as_ref(), plant.status().is_running(), &plant.state())?;
+        running_is_finite(plant.as_ref(), plant.status().is_ok(), &plant.state())?;
         given_back(plant.as_mut(), &wanted)?;
         for _ in 0..3 {
             let status = plant.step();
-            running_is_finite(plant.as_ref(), status.is_running(), &plant.state())?;
+            running_is_finite(plant.as_ref(), status.is_ok(), &plant.state())?;
             for readout in &scene.readouts {
                 let _ = plant.read(&readout.readout);
             }

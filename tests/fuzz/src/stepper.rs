@@ -9,12 +9,12 @@ use arbitrary::Unstructured;
 use dbd_kernel::builder::{LineLaw, ModelBuilder, Triples};
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, Leapfrog,
-    Load, LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler, State, frequency,
+    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry,
+    InputIndex, Leapfrog, Load, LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme,
+    SemiImplicitEuler, State, frequency,
 };
 use fastrand::Rng;
 
@@ -155,8 +155,8 @@ fn drive<P: Geometry, S: Scheme>(
         let status = plant.step();
         let state = plant.state();
         let finite = is_finite(state) && state.signals.iter().all(is_finite);
-        Finding::unless(!status.is_running() || finite, RUNNING_IS_FINITE, || shown(plant))?;
-        if !status.is_running() {
+        Finding::unless(status.is_err() || finite, RUNNING_IS_FINITE, || shown(plant))?;
+        if status.is_err() {
             let (hash, again) = (plant.hash(), plant.step());
             let latched = again == status && plant.hash() == hash && plant.status() == status;
             Finding::unless(latched, "a failed plant stays as it is", || shown(plant))?;

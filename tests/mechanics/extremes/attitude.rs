@@ -36,7 +36,7 @@ fn angle_off<P: Geometry>(step_angle: f64) -> Result<f64, u64> {
     let mut before = 0.0;
     let mut off = 0.0;
     for _ in 0..1_000 {
-        plant.step().ok().map_err(|failure| failure.step)?;
+        plant.step().map_err(|failure| failure.step)?;
         let q = plant.state().bodies[0].convert::<F64>().orientation;
         let angle = 2.0 * libm::atan2(q.v.z, q.w);
         let error = angle - before - step_angle;
@@ -55,7 +55,7 @@ fn momentum_off<P: Geometry>(step_angle: f64) -> Result<f64, u64> {
     let start = momentum(&plant.state().bodies[0]);
     let mut worst = 0.0_f64;
     for _ in 0..100 {
-        plant.advance(100).ok().map_err(|failure| failure.step)?;
+        plant.advance(100).map_err(|failure| failure.step)?;
         let change = momentum(&plant.state().bodies[0]) - start;
         worst = worst.max(change.dot(change).sqrt());
     }
@@ -127,7 +127,7 @@ fn flips<P: Geometry, S: Scheme>(scheme: S, step_angle: f64) -> [f64; 3] {
     let (momentum, energy) = kept(inertia, &body(&plant.state().bodies[0]));
     let (mut times, mut before, mut worst) = (Vec::new(), rate[1], [0.0_f64; 2]);
     for n in 1.. {
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
         let now = body(&plant.state().bodies[0]);
         let (m, e) = kept(inertia, &now);
         let change = m - momentum;
@@ -167,7 +167,7 @@ fn through_the_pole<P: Geometry>(sign: f64) -> Result<f64, u64> {
     let rate = 10.0 * TAU / (f64::from(steps) * h);
     let model = rotor::<P>([1.0, 2.0, 3.0], [half, 0.0, sign * half, 0.0], [0.0, rate, 0.0]);
     let mut plant = Plant::new(&model, Leapfrog, h).unwrap();
-    plant.advance(steps.into()).ok().map_err(|failure| failure.step)?;
+    plant.advance(steps.into()).map_err(|failure| failure.step)?;
     let q: Quaternion<f64> = plant.state().bodies[0].convert::<F64>().orientation;
     let start = Quaternion::new(half, 0.0, sign * half, 0.0);
     let d = start.conjugate().product(q).v;

@@ -17,7 +17,7 @@ pub fn growth<S: Scheme>(scheme: S, z: f64) -> f64 {
         let body = model.add_body(1.0, [1.0; 3], state).unwrap();
         model.add_tsda([BodyIndex::WORLD, body], [[0.0; 3]; 2], 1.0, 0.0, 0.0).unwrap();
         let mut plant = Plant::new(&model, scheme, z).unwrap();
-        plant.step().ok().unwrap();
+        plant.step().unwrap();
         let body = &plant.state().bodies[0];
         (body.position.x, body.velocity.x)
     };
@@ -42,7 +42,7 @@ pub fn deviation<S: Scheme>(
     let mut sample = || {
         let mut most = 0.0_f64;
         for _ in 0..stride {
-            plant.step().ok().unwrap();
+            plant.step().unwrap();
             most = most.max((total(&plant) - start).abs());
         }
         (plant.time(), most)
@@ -60,7 +60,7 @@ pub fn states<P: Geometry, S: Scheme>(
     let model: SceneModel<P> = scene.model.convert();
     let mut plant = Plant::new(&model, scheme, time / steps as f64).unwrap();
     let mut sample = || {
-        plant.advance(steps / SAMPLES).ok().ok()?;
+        plant.advance(steps / SAMPLES).ok()?;
         Some(plant.state().clone())
     };
     (0..SAMPLES).map_while(|_| sample()).collect()

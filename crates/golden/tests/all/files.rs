@@ -38,7 +38,7 @@ fn nudged() -> Recording {
             plant.set_state(state).unwrap();
         }
         recording.look(&plant).unwrap();
-        plant.advance(50).ok().unwrap();
+        plant.advance(50).unwrap();
     }
     recording
 }

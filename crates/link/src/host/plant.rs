@@ -1,8 +1,7 @@
 //! A scene's plant of any method as a device.
 
-use dbd_kernel::F64;
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
+use dbd_kernel::{F64, InputIndex};
 use dbd_plant::readings::append;
 use dbd_plant::{AnyPlant, Method};
 use dbd_scene::Scene;
@@ -134,7 +133,7 @@ impl Device for HostPlant {
     }
 
     fn running(&self) -> bool {
-        self.plant.status().is_running()
+        self.plant.status().is_ok()
     }
 
     fn hash(&self) -> u64 {

@@ -4,10 +4,9 @@
 use std::cell::RefCell;
 
 use crate::shaft::{ANGLE, IMU, POINT, RATE, Shaft, TORQUE};
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::InputError;
 use dbd_kernel::readouts::Readout;
-use dbd_kernel::{BodyIndex, F32};
+use dbd_kernel::{BodyIndex, F32, InputIndex};
 use dbd_node::{
     Active, As5047p, BridgePin, Channel, DutyEnd, Encoder, EncoderParameters, EndStop, Errors,
     Fault, I2cEnd, ImuParameters, Motor, MotorParameters, Mpu6000, Node, NodeDelay, Part, Probe,

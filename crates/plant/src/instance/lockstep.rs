@@ -83,8 +83,8 @@ impl Lockstep {
         let lanes = instances.iter_mut().enumerate();
         lanes
             .map(|(lane, instance)| {
-                let arrived = instance.plant().status().is_running()
-                    && self.ensemble.status(lane).is_running()
+                let arrived = instance.plant().status().is_ok()
+                    && self.ensemble.status(lane).is_ok()
                     && instance.plant_mut().set_state(&self.ensemble.state(lane)).is_ok();
                 // A failure is found again where it was: alone, from the same state.
                 if arrived { Ok(()) } else { instance.advance(steps) }

@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 
 use crate::readings::append;
 use crate::{AnyPlant, plant};
-use dbd_kernel::Status;
 use dbd_scene::parameters::SceneNumber;
 use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS, Scene, nearest};
 
@@ -53,7 +52,7 @@ impl Instance {
         let step = settings.step_of(&scene, &method)?;
         let plant = plant(&scene, &method, step)?;
         let state = plant.state();
-        let start = |input: dbd_kernel::index::InputIndex| {
+        let start = |input: dbd_kernel::InputIndex| {
             let signal = state.signals.get(usize::from(input.0));
             signal.map_or([0.0; 2], |signal| [signal.value, signal.rate])
         };
@@ -239,15 +238,12 @@ impl Instance {
     /// # Errors
     /// [`InstanceError::Failed`] where a step fails or one has failed before.
     pub fn advance(&mut self, steps: u64) -> Result<(), InstanceError> {
-        match self.plant.advance(steps) {
-            Status::Running => Ok(()),
-            Status::Failed(failure) => Err(InstanceError::Failed {
-                what: dbd_scene::fault(&self.scene, &failure.cause),
-                time: failure.step as f64 * self.step_size(),
-                step: failure.step,
-                step_size: self.step_size(),
-            }),
-        }
+        self.plant.advance(steps).map_err(|failure| InstanceError::Failed {
+            what: dbd_scene::fault(&self.scene, &failure.cause),
+            time: failure.step as f64 * self.step_size(),
+            step: failure.step,
+            step_size: self.step_size(),
+        })
     }
 
     /// Advances to a time that is a whole number of steps, within a hundredth of a step.

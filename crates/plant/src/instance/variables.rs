@@ -2,7 +2,7 @@
 //!
 //! `scene => inputs, outputs in order`. The outputs are the columns of a trace except the time.
 
-use dbd_kernel::index::InputIndex;
+use dbd_kernel::InputIndex;
 use dbd_scene::{BODY_COLUMNS, ENERGY_COLUMNS, Scene};
 
 /// An input set by the caller. Inputs driven by a table of the scene are excluded.

@@ -27,7 +27,7 @@ fn a_run_has_the_bits_of_a_plain_plant() {
         let method: Method = settings.method().unwrap();
         let mut plain = plant(&scene, &method, instance.step_size()).unwrap();
         instance.advance_to(instance.step_size() * 500.0).unwrap();
-        plain.advance(500).ok().unwrap();
+        plain.advance(500).unwrap();
         assert_eq!(instance.hash(), plain.hash(), "{name}");
         let values = instance.values();
         assert_eq!(values.len() + 1, scene.columns().len());

@@ -27,7 +27,7 @@ fn judged(
     monitor.check(&plant.state())?;
     let stride = (steps / LOOKS).max(1);
     while plant.steps() < steps {
-        if let dbd_kernel::Status::Failed(failure) = plant.advance(stride) {
+        if let dbd_kernel::Err(failure) = plant.advance(stride) {
             return Err(RunFailure::Step(failure.cause));
         }
         monitor.check(&plant.state())?;
@@ -340,7 +340,7 @@ fn a_joint_opens_beyond_its_clearance() {
         let mut monitor = Monitor::new(&scene, plant.as_ref());
         let mut largest = 0.0_f64;
         for _ in 0..1000 {
-            assert!(plant.advance(1).is_running());
+            plant.advance(1).unwrap();
             let verdict = monitor.check(&plant.state());
             largest = largest
                 .max(verdict.unwrap_or_else(|run_failure| panic!("{run_failure:?}")).extension);

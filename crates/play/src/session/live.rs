@@ -1,6 +1,6 @@
 //! A running plant and the state of its live view.
 
-use dbd_kernel::Status;
+use dbd_kernel::Failure;
 use dbd_plant::failure::Remedy;
 use dbd_plant::instance::Instance;
 use dbd_plant::monitor::{Monitor, RunFailure};
@@ -110,7 +110,7 @@ impl Session {
             if self.grab.is_some() {
                 next = next.min(done + self.pull(end - done));
             }
-            if let Status::Failed(failure) = self.instance.plant_mut().advance(next - done) {
+            if let Err(failure) = self.instance.plant_mut().advance(next - done) {
                 self.run_failure = Some(RunFailure::Step(failure.cause));
             } else if next.is_multiple_of(stride) {
                 self.look();

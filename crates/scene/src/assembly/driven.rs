@@ -2,8 +2,7 @@
 
 use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::elements::source::{Source, SourceLaw};
-use dbd_kernel::index::InputIndex;
-use dbd_kernel::{BodyIndex, F64, Vec3};
+use dbd_kernel::{BodyIndex, F64, InputIndex, Vec3};
 
 use crate::assembly::{Assembly, Defect, index};
 use crate::drive::{Curve, Drive};

@@ -84,7 +84,7 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
     }
     fn count(&mut self, field: &Field, value: u32) {
         let text = match field.kind {
-            "signal" => format!("dbd_kernel::index::InputIndex({value})"),
+            "signal" => format!("dbd_kernel::InputIndex({value})"),
             _ => value.to_string(),
         };
         self.push(field, &text);

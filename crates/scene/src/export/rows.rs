@@ -2,14 +2,14 @@
 //!
 //! `element => source`. Every number is its bit pattern.
 
-use dbd_kernel::body::Body;
 use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
 use dbd_kernel::index::{BodyIndex, DamperIndex};
 use dbd_kernel::model::Group;
 use dbd_kernel::readouts::{Readout, Slide};
 use dbd_kernel::{
-    BodyState, Load, LoadFrame, PointBushing, PointOnLine, Revolute, TorsionSpring, Tsda, Universal,
+    Body, BodyState, Load, LoadFrame, PointBushing, PointOnLine, Revolute, TorsionSpring, Tsda,
+    Universal,
 };
 
 use super::number::{SourceGeometry, SourceNumber};
@@ -195,7 +195,7 @@ pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {
         Readout::Imu { body, point } => at("Imu", *body, point),
         Readout::Input { input } => format!("Input {{ input: InputIndex({}) }}", input.0),
         Readout::Law { law, quantity } => {
-            format!("Law {{ law: dbd_kernel::index::LawIndex({}), quantity: {quantity} }}", law.0)
+            format!("Law {{ law: dbd_kernel::LawIndex({}), quantity: {quantity} }}", law.0)
         }
     };
     format!("Readout::{kind}")

@@ -249,20 +249,20 @@ mod tests {
         let of = |path: &str, value: &str| (path.to_owned(), value.to_owned());
         assert_eq!(
             value("dbd", Some(2), None),
-            of("dbd_kernel::schemes::Dbd", "dbd_kernel::schemes::Dbd { newton: 2 }")
+            of("dbd_kernel::Dbd", "dbd_kernel::Dbd { newton: 2 }")
         );
         assert_eq!(
             value("leapfrog", None, Some("explicit")),
             of(
-                "dbd_kernel::schemes::Explicit<dbd_kernel::schemes::Leapfrog>",
-                "dbd_kernel::schemes::Explicit(dbd_kernel::schemes::Leapfrog)"
+                "dbd_kernel::Explicit<dbd_kernel::Leapfrog>",
+                "dbd_kernel::Explicit(dbd_kernel::Leapfrog)"
             )
         );
         assert_eq!(
             value("semi-implicit-euler", None, Some("joint-wise")),
             of(
-                "dbd_kernel::schemes::JointWise<dbd_kernel::schemes::SemiImplicitEuler>",
-                "dbd_kernel::schemes::JointWise(dbd_kernel::schemes::SemiImplicitEuler)"
+                "dbd_kernel::JointWise<dbd_kernel::SemiImplicitEuler>",
+                "dbd_kernel::JointWise(dbd_kernel::SemiImplicitEuler)"
             )
         );
         for name in NAMES {
@@ -289,9 +289,9 @@ mod tests {
         assert!(refused("leapfrog", None, Some("implicit")).contains("no implicit damping"));
         let solved =
             |rho| value_of(ExportScheme::named("generalized-alpha", None, Some("implicit")), rho);
-        let new = format!("match dbd_kernel::schemes::GeneralizedAlpha::new({})", 0.2.number());
+        let new = format!("match dbd_kernel::GeneralizedAlpha::new({})", 0.2.number());
         assert!(solved(0.2).unwrap().starts_with(&new));
-        let own = "dbd_kernel::schemes::GeneralizedAlpha::DEFAULT";
+        let own = "dbd_kernel::GeneralizedAlpha::DEFAULT";
         assert_eq!(solved(0.5).unwrap(), own);
         assert!(solved(0.9).unwrap_err().contains("from 0 to 0.8"));
         assert!(

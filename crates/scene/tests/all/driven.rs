@@ -2,9 +2,8 @@
 
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::elements::source::{Source, SourceLaw};
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
-use dbd_kernel::{BodyIndex, LoadFrame, Vec3};
+use dbd_kernel::{BodyIndex, InputIndex, LoadFrame, Vec3};
 use dbd_scene::Scene;
 
 const BODIES: &str = r#"

@@ -1,6 +1,6 @@
 //! Errors of modes, and the step of their differences.
 
-use dbd_kernel::status::Cause;
+use dbd_kernel::Cause;
 use miette::Diagnostic;
 use thiserror::Error;
 

@@ -88,7 +88,7 @@ pub(super) fn scheme(scheme: SchemeName) -> Result<Method, PaperError> {
 
 /// Advances by the given number of steps.
 pub(super) fn advance(plant: &mut dyn AnyPlant, steps: u64) -> Result<(), PaperError> {
-    if plant.advance(steps).is_running() {
+    if plant.advance(steps).is_ok() {
         Ok(())
     } else {
         Err(PaperError::Failed { time: plant.time() })

@@ -70,7 +70,7 @@ fn run(scene: &Scene, plant: &mut dyn AnyPlant) -> Result<Run, PaperError> {
     };
     let start = plant.state().bodies[slider].position;
     while plant.time() < ENDS - 0.5 * INTERVAL {
-        if !plant.advance(STEPS).is_running() {
+        if plant.advance(STEPS).is_err() {
             break;
         }
         let state = plant.state();

@@ -41,13 +41,13 @@ pub fn drift(
 ) -> Result<Option<Drift>, PaperError> {
     let mut plant = plant(scene, method, step)?;
     let steps_to = |time: f64| (time / step).round() as u64;
-    if !plant.advance(steps_to(begin)).is_running() {
+    if !plant.advance(steps_to(begin)).is_ok() {
         return Ok(None);
     }
     let every = ((steps_to(end) - steps_to(begin)) / SAMPLES).max(1);
     let mut samples = vec![[plant.time(), plant.energy().total()]];
     while plant.steps() + every <= steps_to(end) {
-        if !plant.advance(every).is_running() {
+        if plant.advance(every).is_err() {
             return Ok(None);
         }
         samples.push([plant.time(), plant.energy().total()]);

@@ -238,7 +238,7 @@ impl<'s> Search<'s> {
         let mut monitor = Monitor::new(model, plant.as_ref());
         let mut states = vec![State::of(&plant.state())];
         while states.len() < self.reference_solution.len() {
-            let state = plant.advance(steps).is_running().then(|| plant.state())?;
+            let state = plant.advance(steps).is_ok().then(|| plant.state())?;
             monitor.check(&state).ok()?;
             states.push(State::of(&state));
         }

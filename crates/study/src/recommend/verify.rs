@@ -85,7 +85,7 @@ fn look(
     let mut done = 0;
     while done < steps {
         let some = stride.min(steps - done);
-        if !plant.advance(some).is_running() || monitor.check(&plant.state()).is_err() {
+        if plant.advance(some).is_err() || monitor.check(&plant.state()).is_err() {
             return Ok(Followed { steps: done, fails: Some(plant.time()) });
         }
         done += some;

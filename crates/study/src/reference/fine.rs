@@ -70,7 +70,7 @@ fn of_kernel(
     }
     let mut states = vec![State::of(&plant.state())];
     while states.len() < times.len() {
-        if !plant.advance(steps).is_running() {
+        if plant.advance(steps).is_err() {
             return Err(refuse(plant.time(), "a step of the kernel failed".into()));
         }
         states.push(State::of(&plant.state()));

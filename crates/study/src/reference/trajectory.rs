@@ -109,7 +109,7 @@ impl Trajectory {
         while run.len() < self.times.len() {
             let state = plant.state();
             run.push(state.bodies.iter().map(|b| Vector3::from(b.position.to_f64())).collect());
-            if !plant.advance(steps).is_running() {
+            if plant.advance(steps).is_err() {
                 break;
             }
         }

@@ -242,7 +242,7 @@ fn is_bounded(model: &SceneModel<F64>, method: &Method, step: f64, steps: u64) -
         if plant.steps() >= steps {
             break;
         }
-        if !plant.advance(look).is_running() {
+        if plant.advance(look).is_err() {
             return false;
         }
         let now = plant.energy().total();

@@ -1,8 +1,7 @@
 //! The plants that can be served: inputs and sensors as their scenes list them.
 
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::readouts::Readout;
-use dbd_kernel::{F32, Leapfrog, Plant};
+use dbd_kernel::{F32, InputIndex, Leapfrog, Plant};
 use dbd_link::{KernelPlant, PlantEnd};
 
 use crate::models::cart_pendulum::{

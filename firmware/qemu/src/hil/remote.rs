@@ -3,12 +3,10 @@
 //! `inputs => frame; frame => sensors`, once per step. The plant steps in lockstep: a step is asked for until its outputs
 //! arrive, so a line that loses frames changes no bit.
 
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::InputError;
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::status::{Cause, Failure};
-use dbd_kernel::vector::Vec3;
-use dbd_kernel::{F32, Status};
+use dbd_kernel::{F32, Failure, InputIndex, Vec3};
 use dbd_link::ControllerEnd;
 use dbd_link::controller_end::{Unanswered, Wait, ask, outputs_at, welcome};
 use dbd_link::device::numbers_of;
@@ -32,7 +30,7 @@ pub struct Remote<'l, L: Wait> {
     step_size: f64,
     values: Values,
     newest: Outputs,
-    status: Status,
+    status: Result<(), Failure>,
 }
 
 impl<'l, L: Wait> Remote<'l, L> {
@@ -61,7 +59,7 @@ impl<'l, L: Wait> Remote<'l, L> {
             }
         };
         let values = inputs.iter().map(|_| 0.0).collect();
-        let (newest, status) = (welcome.outputs, Status::Running);
+        let (newest, status) = (welcome.outputs, Ok(()));
         Some(Self { line, end, inputs, sensors, step_size, values, newest, status })
     }
 
@@ -75,14 +73,14 @@ impl<'l, L: Wait> Remote<'l, L> {
         self.end.statistics()
     }
 
-    fn step(&mut self) -> Status {
+    fn step(&mut self) -> Result<(), Failure> {
         let step = self.newest.step;
         let inputs = Message::Inputs(Inputs { step, values: self.values.clone() });
         let answer = ask(&mut self.end, self.line, TRIES, &inputs, outputs_at(step + 1));
         match answer {
             Ok(outputs) if outputs.running => {
                 self.newest = outputs;
-                return Status::Running;
+                return Ok(());
             }
             Ok(outputs) => {
                 log!(error, "remote plant: failure at step {}", outputs.step);
@@ -92,7 +90,7 @@ impl<'l, L: Wait> Remote<'l, L> {
             Err(Unanswered::Silent) => log!(error, "remote plant: no answer to step {}", step),
         }
         // The plant does not send the cause: there are no further steps.
-        Status::Failed(Failure { cause: Cause::Steps, step: step + 1 })
+        Err(Failure { cause: Cause::Steps, step: step + 1 })
     }
 }
 
@@ -129,9 +127,9 @@ impl<L: Wait> dbd_node::Machine for Remote<'_, L> {
         }
     }
 
-    fn advance(&mut self, steps: u64) -> Status {
+    fn advance(&mut self, steps: u64) -> Result<(), Failure> {
         for _ in 0..steps {
-            if !self.status.is_running() {
+            if self.status.is_err() {
                 break;
             }
             self.status = self.step();
@@ -139,7 +137,7 @@ impl<L: Wait> dbd_node::Machine for Remote<'_, L> {
         self.status
     }
 
-    fn status(&self) -> Status {
+    fn status(&self) -> Result<(), Failure> {
         self.status
     }
 
@@ -215,7 +213,7 @@ mod tests {
         assert_eq!(remote.set_input(drive, f32::NAN), Err(InputError::NotFinite(drive)));
         let other = InputIndex(7);
         assert_eq!(remote.set_input(other, 0.0), Err(InputError::Unknown(other)));
-        assert_eq!((remote.advance(3), remote.steps()), (Status::Running, 3));
+        assert_eq!((remote.advance(3), remote.steps()), (Ok(()), 3));
         let read = CART_PENDULUM_SENSORS.map(|sensor| remote.read(&sensor));
         assert_eq!(remote.read(&Readout::Input { input: drive }), None);
         drop(remote);
@@ -229,8 +227,8 @@ mod tests {
     fn a_silent_plant_is_a_failure_that_latches() {
         let mut line = line(2);
         let mut remote = opened(&mut line);
-        assert_eq!(remote.advance(1), Status::Running);
-        let failed = Status::Failed(Failure { cause: Cause::Steps, step: 2 });
+        assert_eq!(remote.advance(1), Ok(()));
+        let failed = Err(Failure { cause: Cause::Steps, step: 2 });
         assert_eq!((remote.advance(5), remote.steps()), (failed, 1));
         let sent = remote.statistics().sent;
         assert_eq!((remote.advance(1), remote.statistics().sent), (failed, sent));

@@ -194,7 +194,7 @@ fn places(
     let mut places = Vec::new();
     let mut bodies: Vec<BodyState<_>> = Vec::new();
     for _ in 0..LOOKS {
-        if !plant.advance(stride).is_running() {
+        if plant.advance(stride).is_err() {
             break;
         }
         plant.bodies(&mut bodies);
@@ -217,7 +217,7 @@ fn loses(scene: &Scene, method: &Method, step: f64) -> Result<Option<String>, Pl
     let Some(mut watch) = RoundingWatch::new(plant.as_ref()) else { return Ok(None) };
     let steps = ((scene.duration / step).round() as u64).clamp(1, MAX_STEPS);
     for _ in 0..steps {
-        if !plant.advance(1).is_running() {
+        if plant.advance(1).is_err() {
             return Ok(None);
         }
         watch.look(plant.as_ref());

@@ -109,7 +109,7 @@ fn golden(scene: &Scene, choice: &Choice, steps: u64) -> Result<String, NewError
     let (mut lines, mut next, mut done) = (String::new(), 1, 0);
     while done < steps {
         let count = next.min(steps) - done;
-        if let Err(failure) = plant.advance(count).ok() {
+        if let Err(failure) = plant.advance(count) {
             let scene = scene.name.clone();
             let method = choice.words();
             return Err(NewError::Fails { scene, method, failure: failure.to_string() });

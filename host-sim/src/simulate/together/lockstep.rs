@@ -64,7 +64,7 @@ pub fn simulate_together(
         wall += start.elapsed();
         for (instance, course) in courses.iter_mut().enumerate() {
             let Some(going) = course else { continue };
-            let arrived = ensemble.status(instance).is_running()
+            let arrived = ensemble.status(instance).is_ok()
                 && going.plant.set_state(&ensemble.state(instance)).is_ok();
             if !arrived {
                 *course = None;

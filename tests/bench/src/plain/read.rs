@@ -2,9 +2,8 @@
 //!
 //! `model => plain loop`, or what it has that a plain loop lacks.
 
-use dbd_kernel::index::BodyIndex;
 use dbd_kernel::model::{Group, Law};
-use dbd_kernel::{F64, LoadFrame};
+use dbd_kernel::{BodyIndex, F64, LoadFrame};
 use dbd_scene::SceneModel;
 use thiserror::Error;
 

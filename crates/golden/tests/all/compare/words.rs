@@ -91,7 +91,7 @@ impl<M: ModelOwner<Precision = P>, P: Geometry> Moment for At<'_, M> {
 fn flipped<P: Geometry>(word: prop::sample::Index, bit: prop::sample::Index) {
     let of = scene("four-bar");
     let mut plant = plant::<P>(&of);
-    plant.advance(10).ok().unwrap();
+    plant.advance(10).unwrap();
     let mut golden = Recording::of_scene(&of, &plant, 50, &[]).unwrap();
     golden.look(&plant).unwrap();
     let mut state: State<SceneModel<P>> = plant.state().clone();

@@ -3,11 +3,10 @@
 //! `(torque, step) => angle, rate`. It shows that another solver may stand behind the drivers, and it
 //! gives the tests a truth that is known in closed form.
 
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::InputError;
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::status::{Cause, Failure};
-use dbd_kernel::{BodyIndex, F32, Status, Vec3};
+use dbd_kernel::{BodyIndex, F32, Failure, InputIndex, Vec3};
 use dbd_node::Machine;
 
 /// \[s\].
@@ -62,9 +61,9 @@ impl Machine for Shaft {
         }
     }
 
-    fn advance(&mut self, steps: u64) -> Status {
+    fn advance(&mut self, steps: u64) -> Result<(), Failure> {
         for _ in 0..steps {
-            if !self.status().is_running() {
+            if self.status().is_err() {
                 break;
             }
             self.rate += self.torque * STEP as f32;
@@ -74,13 +73,13 @@ impl Machine for Shaft {
         self.status()
     }
 
-    fn status(&self) -> Status {
+    fn status(&self) -> Result<(), Failure> {
         match self.breaks_at {
             Some(step) if self.steps >= step => {
                 let cause = Cause::NonFinite { body: BodyIndex(0) };
-                Status::Failed(Failure { cause, step })
+                Err(Failure { cause, step })
             }
-            _ => Status::Running,
+            _ => Ok(()),
         }
     }
 

@@ -3,11 +3,10 @@
 //! Numbers pass this boundary in double precision, whatever the model's: soft floating point is
 //! in its place here.
 
-use dbd_kernel::index::InputIndex;
 use dbd_kernel::plant::{InputError, StateError};
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::snapshot::SnapshotError;
-use dbd_kernel::{F32, F64, Geometry, Leapfrog, Plant, State, Status};
+use dbd_kernel::{F32, F64, Failure, Geometry, InputIndex, Leapfrog, Plant, State};
 
 use crate::Keep;
 use crate::steps::EveryKind;
@@ -28,7 +27,7 @@ macro_rules! root {
 
 macro_rules! roots {
     ($keep:ident, $geometry:ty, $precision:literal) => {
-        root!($keep, "advance" $precision, (plant: &mut Running<$geometry>, steps: u64) -> Status {
+        root!($keep, "advance" $precision, (plant: &mut Running<$geometry>, steps: u64) -> Result<(), Failure> {
             plant.advance(steps)
         });
         root!($keep, "set_input" $precision,

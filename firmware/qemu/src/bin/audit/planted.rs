@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use dbd_kernel::{Leapfrog, Plant, Status};
+use dbd_kernel::{Failure, Leapfrog, Plant};
 use firmware::models::four_bar::FourBarF32;
 
 use crate::Keep;
@@ -12,7 +12,7 @@ macro_rules! planted {
         $({
             #[inline(never)]
             #[unsafe(export_name = concat!("audit.planted.", $fault))]
-            fn root(plant: &mut Plant<&'static FourBarF32, Leapfrog>) -> Status {
+            fn root(plant: &mut Plant<&'static FourBarF32, Leapfrog>) -> Result<(), Failure> {
                 $into();
                 plant.step()
             }

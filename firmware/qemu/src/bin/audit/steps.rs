@@ -14,8 +14,8 @@ use dbd_kernel::laws::{
 };
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
-    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Fixed, GeneralizedAlpha,
-    GeneralizedAlpha3, JointWise, Leapfrog, Model, Pefrl, Plant, Rk4, SemiImplicitEuler, Status,
+    BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Failure, Fixed, GeneralizedAlpha,
+    GeneralizedAlpha3, JointWise, Leapfrog, Model, Pefrl, Plant, Rk4, SemiImplicitEuler,
 };
 use firmware::alone::Alone;
 use firmware::models::{self, four_bar::FourBarF32};
@@ -100,7 +100,7 @@ macro_rules! step {
     ($keep:ident, $model:literal $type:ty, $name:literal $scheme:ty, $precision:literal) => {{
         #[inline(never)]
         #[unsafe(export_name = concat!("audit.step.", $model, ".", $name, ".", $precision))]
-        fn root(plant: &mut Plant<&'static $type, $scheme>) -> Status {
+        fn root(plant: &mut Plant<&'static $type, $scheme>) -> Result<(), Failure> {
             plant.step()
         }
         $keep(root as *const ());
