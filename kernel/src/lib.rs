@@ -79,6 +79,7 @@
 //! - [`fingerprint`], [`snapshot`], [`readouts`]: the identity of a state's model; a state as bytes, portable between
 //!   machines; sensors.
 //! - [`builder`], `convert`, `format`: models assembled at run time, nalgebra's types, defmt's (features).
+//! - [`generated`]: the names in exported source.
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -124,6 +125,7 @@ mod format;
 pub mod freedoms;
 #[doc(hidden)]
 pub mod frequency;
+pub mod generated;
 #[doc(hidden)]
 pub mod geometry;
 mod guards;

@@ -73,6 +73,27 @@ def test_mujoco_is_near(tmp_path: Path) -> None:
     assert len(apart) == 3 and apart[0] < 0.05 and apart[2] < apart[1] < apart[0], out
 
 
+@pytest.mark.skipif(
+    any(importlib.util.find_spec(name) is None for name in ("mujoco", "casadi")), reason="pip install mujoco casadi"
+)
+def test_peers_move_alike(tmp_path: Path) -> None:
+    spec = importlib.util.spec_from_file_location("peers", REPOSITORY / "docs/validation/peers.py")
+    assert spec is not None and spec.loader is not None
+    peers = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(peers)
+    import tomllib  # Python 3.11 has it
+
+    import dbd
+
+    text = dbd.SCENES["four-bar"]
+    scene = tomllib.loads(text)
+    kernel = peers.Kernel(text, scene, tmp_path)
+    truth, _ = peers.Generated(scene, tmp_path).run(("RK4",), 1e-5, 10, 1000)
+    for tool, setting in ((peers.MuJoCo(scene), ("RK4",)), (kernel, ("generalized-alpha-3", 1e12))):
+        places, again = tool.run(setting, 2.5e-4, 10, 40)
+        assert peers.off(places, truth) < 1e-5 and again() > 0.0, tool.name
+
+
 @pytest.mark.parametrize("page", ["docs/python.md", "python/README.md"])
 def test_the_pages_programs_run(page: str, tmp_path: Path) -> None:
     text = (REPOSITORY / page).read_text()

@@ -219,7 +219,7 @@ fn a_run_that_fails_says_why_as_run_does() {
         if let Err(run_failure) = monitor.check(&plain.state()) {
             break run_failure;
         }
-        if let dbd_kernel::Err(failure) = plain.advance(plan.unseen()) {
+        if let Err(failure) = plain.advance(plan.unseen()) {
             break dbd_plant::monitor::RunFailure::Step(failure.cause);
         }
     };

@@ -79,7 +79,7 @@ impl Relay {
             }
         }
         let until = if self.part == Part::Begin { steps / 2 } else { steps };
-        if !plant.advance(until - plant.state().step).is_ok() {
+        if plant.advance(until - plant.state().step).is_err() {
             return Err("it diverged");
         }
         if self.part == Part::Begin {

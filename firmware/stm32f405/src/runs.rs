@@ -5,7 +5,7 @@
 
 use core::fmt;
 
-use dbd_kernel::{Leapfrog, Plant, Failure};
+use dbd_kernel::{Failure, Leapfrog, Plant};
 
 use crate::board::RATE;
 use crate::models::cart_pendulum::{CART_PENDULUM_F32, CART_PENDULUM_STEP, CartPendulumF32};

@@ -269,7 +269,7 @@ impl<S: Scheme + Copy> Run<'_, S> {
             let start = Instant::now();
             let status = plant.advance(next - done);
             seconds += start.elapsed().as_secs_f64();
-            status.ok().map_err(|failure| format!("{failure:?}"))?;
+            status.map_err(|failure| format!("{failure:?}"))?;
         }
         let compared = compared.ok_or("nothing to compare")?;
         Ok(Outcome { interval: each as f64 * self.step, energies, by_model, compared, seconds })

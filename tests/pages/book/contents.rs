@@ -71,6 +71,11 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// The pages of the book.
+fn book() -> Vec<PathBuf> {
+    [pages(&path("docs")), pages(&path("docs/validation"))].concat()
+}
+
 fn name(file: &Path) -> String {
     file.file_name().unwrap().to_string_lossy().into_owned()
 }
@@ -83,8 +88,8 @@ fn every_page_is_in_the_contents_once() {
     listed.sort();
     listed.dedup();
     assert_eq!(listed.len(), shown, "{CONTENTS} names a page twice");
-    let all: Vec<String> =
-        pages(&docs).iter().map(|file| name(file)).filter(|name| name != CONTENTS).collect();
+    let within = |file: PathBuf| file.strip_prefix(&docs).unwrap().display().to_string();
+    let all: Vec<String> = book().into_iter().map(within).filter(|name| name != CONTENTS).collect();
     assert_eq!(listed, all);
     // mdBook finds its pages here.
     let book: toml::Table = fs::read_to_string(path("book.toml")).unwrap().parse().unwrap();
@@ -94,7 +99,7 @@ fn every_page_is_in_the_contents_once() {
 #[test]
 fn every_link_leads_somewhere() {
     let root = path("");
-    let mut files = [pages(&root), pages(&path("docs"))].concat();
+    let mut files = [pages(&root), book()].concat();
     for folder in fs::read_dir(&root).unwrap() {
         let readme = folder.unwrap().path().join("README.md");
         files.extend(readme.is_file().then_some(readme));
@@ -121,7 +126,7 @@ fn every_link_leads_somewhere() {
 
 #[test]
 fn every_picture_is_shown_by_a_page() {
-    let files = [vec![path("README.md")], pages(&path("docs"))].concat();
+    let files = [vec![path("README.md")], book()].concat();
     let shown: BTreeSet<String> = files
         .iter()
         .flat_map(|file| Page::read(file).links)
@@ -135,7 +140,7 @@ fn every_picture_is_shown_by_a_page() {
 
 #[test]
 fn every_page_says_whom_it_is_for_and_where_to_go_next() {
-    for file in pages(&path("docs")) {
+    for file in book() {
         let page = name(&file);
         if [CONTENTS, COVER].contains(&page.as_str()) {
             continue;

@@ -27,7 +27,7 @@ fn judged(
     monitor.check(&plant.state())?;
     let stride = (steps / LOOKS).max(1);
     while plant.steps() < steps {
-        if let dbd_kernel::Err(failure) = plant.advance(stride) {
+        if let Err(failure) = plant.advance(stride) {
             return Err(RunFailure::Step(failure.cause));
         }
         monitor.check(&plant.state())?;

@@ -1,6 +1,5 @@
 //! A running plant and the state of its live view.
 
-use dbd_kernel::Failure;
 use dbd_plant::failure::Remedy;
 use dbd_plant::instance::Instance;
 use dbd_plant::monitor::{Monitor, RunFailure};

@@ -75,7 +75,7 @@ fn locals<P: SourceGeometry>(points: [[f64; 3]; 2]) -> String {
 fn hinge<P: SourceGeometry>(axis: [f64; 3], reference: [f64; 4]) -> String {
     let axis = P::moment(&<P as Geometry>::Moment::from_f64(axis));
     let reference = P::turn(&<P::Space as Space>::Turn::from_f64(reference));
-    format!("dbd_kernel::laws::Hinge {{ axis: {axis}, reference: {reference} }}")
+    format!("dbd_kernel::generated::Hinge {{ axis: {axis}, reference: {reference} }}")
 }
 
 impl<P: SourceGeometry> FieldSink for Fields<P> {
@@ -84,7 +84,7 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
     }
     fn count(&mut self, field: &Field, value: u32) {
         let text = match field.kind {
-            "signal" => format!("dbd_kernel::InputIndex({value})"),
+            "signal" => format!("dbd_kernel::generated::InputIndex({value})"),
             _ => value.to_string(),
         };
         self.push(field, &text);
@@ -104,14 +104,18 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
         let all = all.map(|[x, y]| format!("[{}, {}]", number::<P>(*x), number::<P>(*y)));
         let all = all.collect::<Vec<_>>().join(", ");
         let count = knots.len();
-        self.push(field, &format!("dbd_kernel::laws::Curve {{ knots: [{all}], count: {count} }}"));
+        self.push(
+            field,
+            &format!("dbd_kernel::generated::Curve {{ knots: [{all}], count: {count} }}"),
+        );
     }
     fn matrix(&mut self, field: &Field, Ldl { diagonal, below }: &Ldl<f64>) {
         let list = |all: &[f64]| {
             all.iter().map(|value| number::<P>(*value)).collect::<Vec<_>>().join(", ")
         };
         let (diagonal, below) = (list(diagonal), list(below));
-        let text = format!("dbd_kernel::laws::Ldl {{ diagonal: [{diagonal}], below: [{below}] }}");
+        let text =
+            format!("dbd_kernel::generated::Ldl {{ diagonal: [{diagonal}], below: [{below}] }}");
         self.push(field, &text);
     }
     fn terms(&mut self, field: &Field, terms: &[Option<Term>; MAX_TERMS]) {
@@ -129,8 +133,8 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
             };
             let factor = number::<P>(*factor);
             format!(
-                "Some(dbd_kernel::laws::Term {{ bodies: [{a}, {b}], factor: {factor}, \
-                 way: dbd_kernel::laws::CoordinateKind::{way} }})"
+                "Some(dbd_kernel::generated::Term {{ bodies: [{a}, {b}], factor: {factor}, \
+                 way: dbd_kernel::generated::CoordinateKind::{way} }})"
             )
         };
         self.push(field, &format!("[{}]", terms.each_ref().map(term).join(", ")));

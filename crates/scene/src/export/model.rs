@@ -123,9 +123,9 @@ pub(super) fn plan<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) ->
     let counts = [order.len(), pairs.len(), targets.len(), slots.len()].map(|n| n.to_string());
     format!(
         "/// The scene {quoted} with the plan of a matrix.\n{UNUSED}\
-         pub type {planned} = dbd_kernel::model::Planned<&'static {ty}{suffix}, {counts}>;\n\
+         pub type {planned} = dbd_kernel::generated::Planned<&'static {ty}{suffix}, {counts}>;\n\
          /// The scene {quoted} with the plan of a matrix.\n{UNUSED}\
-         pub static {name}_PLANNED_{capitals}: {planned} = dbd_kernel::model::Planned {{\n    \
+         pub static {name}_PLANNED_{capitals}: {planned} = dbd_kernel::generated::Planned {{\n    \
              model: &{name}_{capitals},\n    order: {order:?},\n    pairs: {pairs:?},\n    \
              targets: {targets:?},\n    slots: {slots:?},\n}};\n",
         quoted = quoted(&scene.name),

@@ -126,14 +126,14 @@ impl SourceGeometry for Fixed {
     const SUFFIX: &'static str = "Fixed";
 
     fn name() -> String {
-        "dbd_kernel::Fixed".into()
+        "dbd_kernel::generated::Fixed".into()
     }
     fn stored_position(position: &FixedPlace) -> String {
-        format!("dbd_kernel::fixed::FixedPlace {{ at: {:?} }}", position.at)
+        format!("dbd_kernel::generated::FixedPlace {{ at: {:?} }}", position.at)
     }
     fn stored_velocity(velocity: &FixedVelocity) -> String {
         let [sum, lost] = [velocity.sum, velocity.lost].map(|v| Single::vector(&v));
-        format!("dbd_kernel::fixed::FixedVelocity {{ sum: {sum}, lost: {lost} }}")
+        format!("dbd_kernel::generated::FixedVelocity {{ sum: {sum}, lost: {lost} }}")
     }
     fn stored_spin(spin: &FixedVelocity) -> String {
         Self::stored_velocity(spin)
@@ -148,10 +148,10 @@ impl SourceGeometry for Fixed {
         Single::turn(q)
     }
     fn orientation(turn: &FixedTurn) -> String {
-        format!("dbd_kernel::fixed::FixedTurn::from_words({}, {:?})", turn.w, turn.v)
+        format!("dbd_kernel::generated::FixedTurn::from_words({}, {:?})", turn.w, turn.v)
     }
     fn local(point: &FixedPoint) -> String {
-        format!("dbd_kernel::fixed::FixedPoint {{ at: {:?} }}", point.at)
+        format!("dbd_kernel::generated::FixedPoint {{ at: {:?} }}", point.at)
     }
 }
 

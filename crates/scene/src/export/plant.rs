@@ -28,12 +28,12 @@ pub(super) fn plant<P: SourceGeometry>(scene: &Scene, scheme: &ExportScheme) -> 
     let (model, of) = (format!("{ty}{}{precision}", planned[0]), planned[1]);
     format!(
         "/// The scene {} stepped by {} in {name}.\n{UNUSED}\
-         pub type {ty}Plant{precision} = dbd_kernel::Plant<&'static {model}, {path}>;\n\
+         pub type {ty}Plant{precision} = dbd_kernel::generated::Plant<&'static {model}, {path}>;\n\
          /// A plant at its initial state, with the step [`{constant}_STEP`].\n///\n\
          /// # Errors\n/// Where {name} does not hold the step, which was looked at when this was \
          written.\n{UNUSED}#[inline]\n\
-         pub fn plant_{suffix}() -> Result<{ty}Plant{precision}, dbd_kernel::plant::PlantError> {{\n    \
-             dbd_kernel::Plant::new(&{constant}{of}_{capitals}, {constant}_SCHEME, {constant}_STEP)\n\
+         pub fn plant_{suffix}() -> Result<{ty}Plant{precision}, dbd_kernel::generated::PlantError> {{\n    \
+             dbd_kernel::generated::Plant::new(&{constant}{of}_{capitals}, {constant}_SCHEME, {constant}_STEP)\n\
          }}\n",
         quoted(&scene.name),
         scheme.name(),
@@ -50,7 +50,7 @@ pub(super) fn only(scene: &Scene, precision: ExportPrecision) -> String {
          pub type {ty}Plant = {ty}Plant{suffix};\n\
          /// A plant at its initial state.\n///\n\
          /// # Errors\n/// Those of [`plant_{call}`].\n{UNUSED}#[inline]\n\
-         pub fn plant() -> Result<{ty}Plant, dbd_kernel::plant::PlantError> {{\n    \
+         pub fn plant() -> Result<{ty}Plant, dbd_kernel::generated::PlantError> {{\n    \
              plant_{call}()\n\
          }}\n",
         precision.name(),

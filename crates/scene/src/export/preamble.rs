@@ -39,30 +39,13 @@ pub(super) fn shared(scene: &Scene, step: f64) -> String {
     format!(
         "// Not every scene has every kind of element, and not every program uses all of its constants.\n\
          #[allow(unused_imports)]\n\
-         use dbd_kernel::{{\n    \
-             {types}\
-             elements::input::{{Input, InputKind, Knot}},\n    \
-             elements::source::{{Sensor, Source, SourceLaw}},\n    \
-             index::{{ClearanceIndex, DamperIndex, InputIndex}},\n    \
-             model::{{Group, Law}},\n    \
-             readouts::Readout,\n\
-         }};\n\n\
+         use dbd_kernel::generated::*;\n\n\
          /// \\[s\\] the step of the scene {scene_name}.\n\
          {UNUSED}pub const {name}_STEP: f64 = {step};\n\
          {bodies}{inputs}",
-        types = if scene.planar.is_some() { PLANAR } else { SPATIAL },
         scene_name = quoted(&scene.name),
     )
 }
-
-/// The types of a spatial model.
-const SPATIAL: &str = "Body, BodyIndex, BodyState, F32, F64, Load, LoadFrame, Model, PointBushing, \
-                       PointOnLine,\n    Quaternion, Revolute, TorsionSpring, Tsda, Universal, Vec3,\n    ";
-
-/// The types of a planar model.
-const PLANAR: &str = "Body, BodyIndex, BodyState, Load, LoadFrame, Model, Planar32, Planar64, \
-                      PointBushing,\n    PointOnLine, TorsionSpring, Tsda,\n    plane::{Axial, \
-                      Heading, Vec2},\n    ";
 
 /// Names of joints, inputs and torsion springs by index, and the indices of each body and joint in the model.
 pub(super) fn names(scene: &Scene) -> String {

@@ -167,7 +167,7 @@ pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {
     };
     let slide = |Slide { bodies: [a, b], points: [at_a, at_b], axis }: &Slide<P>| {
         format!(
-            "dbd_kernel::readouts::Slide {{ bodies: [{}, {}], points: [{}, {}], axis: {} }}",
+            "dbd_kernel::generated::Slide {{ bodies: [{}, {}], points: [{}, {}], axis: {} }}",
             index(*a),
             index(*b),
             P::local(at_a),
@@ -195,7 +195,10 @@ pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {
         Readout::Imu { body, point } => at("Imu", *body, point),
         Readout::Input { input } => format!("Input {{ input: InputIndex({}) }}", input.0),
         Readout::Law { law, quantity } => {
-            format!("Law {{ law: dbd_kernel::LawIndex({}), quantity: {quantity} }}", law.0)
+            format!(
+                "Law {{ law: dbd_kernel::generated::LawIndex({}), quantity: {quantity} }}",
+                law.0
+            )
         }
     };
     format!("Readout::{kind}")

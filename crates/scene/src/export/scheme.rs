@@ -171,7 +171,7 @@ impl ExportScheme {
 
     /// A scheme in one of the kernel's wrappers that change its damping.
     fn wrapped<S: Kicked>(scheme: S, name: &str, wrapper: &str) -> Self {
-        let path = "dbd_kernel::schemes::";
+        let path = "dbd_kernel::";
         let ty = format!("{wrapper}<{path}{name}>");
         let value = format!("{wrapper}({path}{name})");
         if wrapper == "Explicit" {
@@ -182,7 +182,7 @@ impl ExportScheme {
     }
 
     fn of<S: Scheme>(scheme: S, path: &str, value: &str) -> Self {
-        let within = |text: &str| format!("dbd_kernel::schemes::{text}");
+        let within = |text: &str| format!("dbd_kernel::{text}");
         Self {
             name: S::NAME,
             damping: S::DAMPING,

@@ -41,7 +41,7 @@ pub fn drift(
 ) -> Result<Option<Drift>, PaperError> {
     let mut plant = plant(scene, method, step)?;
     let steps_to = |time: f64| (time / step).round() as u64;
-    if !plant.advance(steps_to(begin)).is_ok() {
+    if plant.advance(steps_to(begin)).is_err() {
         return Ok(None);
     }
     let every = ((steps_to(end) - steps_to(begin)) / SAMPLES).max(1);

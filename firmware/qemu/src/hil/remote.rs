@@ -5,8 +5,7 @@
 
 use dbd_kernel::plant::InputError;
 use dbd_kernel::readouts::{Reading, Readout};
-use dbd_kernel::status::{Cause, Failure};
-use dbd_kernel::{F32, Failure, InputIndex, Vec3};
+use dbd_kernel::{Cause, F32, Failure, InputIndex, Vec3};
 use dbd_link::ControllerEnd;
 use dbd_link::controller_end::{Unanswered, Wait, ask, outputs_at, welcome};
 use dbd_link::device::numbers_of;

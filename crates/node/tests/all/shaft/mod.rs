@@ -5,8 +5,7 @@
 
 use dbd_kernel::plant::InputError;
 use dbd_kernel::readouts::{Reading, Readout};
-use dbd_kernel::status::{Cause, Failure};
-use dbd_kernel::{BodyIndex, F32, Failure, InputIndex, Vec3};
+use dbd_kernel::{BodyIndex, Cause, F32, Failure, InputIndex, Vec3};
 use dbd_node::Machine;
 
 /// \[s\].
