@@ -179,9 +179,11 @@ mod tests {
     fn every_program_of_the_pages_is_compiled() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let mut pages: Vec<String> = vec!["CONTRIBUTING.md".into()];
-        for file in fs::read_dir(root.join("docs")).unwrap() {
-            let name = file.unwrap().file_name().into_string().unwrap();
-            pages.extend(name.ends_with(".md").then(|| format!("docs/{name}")));
+        for folder in ["docs", "docs/validation"] {
+            for file in fs::read_dir(root.join(folder)).unwrap() {
+                let name = file.unwrap().file_name().into_string().unwrap();
+                pages.extend(name.ends_with(".md").then(|| format!("{folder}/{name}")));
+            }
         }
         pages.sort();
         let mut compiled = [PAGES, &[IN_FIRMWARE]].concat();

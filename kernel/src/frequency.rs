@@ -37,7 +37,7 @@ const CLEARLY_POSITIVE: f64 = 0.99;
 /// on the symmetric part of `M^-1/2·K·M^-1/2`; each needs two force evaluations. Not above the exact frequency of the
 /// elements, like every Rayleigh quotient of a symmetric matrix, except for the rounding of the differences, about 1e-8
 /// of it; torques and forces that rotate with a body, which have no energy, are left out. Intended for double
-/// precision: forces are differenced over 1e-6 m. Never above [`bound`].
+/// precision: forces are differenced over 1e-6 m. Never above `bound`.
 pub fn estimate<M: ModelOwner>(model: &M, state: &State<M>, iterations: u32) -> f64 {
     let mut rest = state.clone();
     for (signal, input) in rest.signals.as_mut().iter_mut().zip(model.view().inputs) {

@@ -47,7 +47,7 @@
 //! | `defmt` | on a microcontroller, `defmt::Format` on every public type |
 //! | `heapless` | [`builder`]: models of fixed capacity, assembled at run time |
 //! | `nalgebra` | `From` and `Into` between the vectors and quaternions of both |
-//! | `micromath` | [`approximate`]: single precision with micromath's square root, for comparison |
+//! | `micromath` | `approximate`: single precision with micromath's square root, for comparison |
 //!
 //! # Order of modules
 //!

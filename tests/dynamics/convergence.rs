@@ -1,7 +1,6 @@
 //! Observed orders of convergence: what each scheme states, in the plane and in space, without
 //! and with dampers. The truth is a fourth-order run at a step far below.
 
-use dbd_kernel::damping::Damping;
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::{
@@ -9,7 +8,6 @@ use dbd_kernel::{
     GeneralizedAlpha3, Leapfrog, LoadFrame, Pefrl, Rk4, Scheme, SemiImplicitEuler, Vec3,
 };
 use dbd_scene::Eliminated;
-use dbd_tests::page::{block, figure, table};
 use dbd_tests::{Bench, distance, hung_ring, run, turned};
 
 /// Observed orders differ from the stated ones by less.
@@ -61,23 +59,17 @@ impl Case {
         distance(&end.bodies, &self.reference_solution)
     }
 
-    /// Compares the order between `steps` and twice as many with the stated one; the scheme's row.
-    fn check<S: Scheme>(&self, scheme: S, stated: u32, steps: u64) -> Observed {
+    /// Compares the order between `steps` and twice as many with the stated one.
+    fn check<S: Scheme>(&self, scheme: S, stated: u32, steps: u64) {
         let (coarse, fine) = (self.error(scheme, steps), self.error(scheme, 2 * steps));
         let order = (coarse / fine).log2();
         let name = S::NAME;
         let off = (order - f64::from(stated)).abs();
         assert!(off < TOLERANCE, "{}, {name}: {order} from {coarse:e}, {fine:e}", self.title);
-        Observed { name, damping: S::DAMPING, order, fine }
     }
 
     /// Every scheme at its steps for first, second and fourth order.
-    fn check_all(
-        &self,
-        order: fn(u32, u32) -> u32,
-        [first, second, fourth]: [u64; 3],
-    ) -> Vec<Observed> {
-        let mut observed = Vec::new();
+    fn check_all(&self, order: fn(u32, u32) -> u32, [first, second, fourth]: [u64; 3]) {
         macro_rules! check {
             ($($scheme:ty = $value:expr;)*) => {$(
                 let stated = order(<$scheme>::ORDER, <$scheme>::ORDER_DAMPED);
@@ -86,7 +78,7 @@ impl Case {
                     2 => second,
                     _ => fourth,
                 };
-                observed.push(self.check($value, stated, steps));
+                self.check($value, stated, steps);
             )*};
         }
         check! {
@@ -115,7 +107,6 @@ impl Case {
             // A tumbling body's error of the next order shows in longer ones.
             GeneralizedAlpha3 = GeneralizedAlpha3, 2 * fourth;
         }
-        observed
     }
 
     /// A scheme with a matrix takes a model with a plan.
@@ -131,15 +122,6 @@ impl Case {
         let orders = f64::from(least) - TOLERANCE..f64::from(S::ORDER) + TOLERANCE;
         assert!(orders.contains(&order), "{title}, {}: {order} from {coarse:e}, {fine:e}", S::NAME);
     }
-}
-
-/// What a scheme was seen to do.
-struct Observed {
-    name: &'static str,
-    damping: Damping,
-    order: f64,
-    /// \[m\] the error of the finer run.
-    fine: f64,
 }
 
 #[test]
@@ -158,23 +140,7 @@ fn in_space_with_tumbling_bodies() {
 #[test]
 fn in_the_plane_with_dampers() {
     let case = Case::new("plane, damped", flat(3.0), true, 0.4);
-    let observed = case.check_all(|_, damped| damped, [4_000, 500, 320]);
-
-    // The schemes whose dampers act in either way, at one step for both.
-    let has = |name: &str, way| observed.iter().any(|o| o.name == name && o.damping == way);
-    let both = |name: &str| has(name, Damping::Sweeps) && has(name, Damping::Explicit);
-    let mut rows: Vec<Vec<String>> = Vec::new();
-    for of in observed.iter().filter(|of| both(of.name)) {
-        let (order, fine) = (format!("{:.2}", of.order), of.fine);
-        let error = match (of.name, of.damping) {
-            ("leapfrog", Damping::Sweeps) => case.error(Leapfrog, 8_000),
-            _ => fine,
-        };
-        let cells = [format!("`{}`", of.name), of.damping.name().into(), order, figure(error, 2)];
-        rows.push(cells.to_vec());
-    }
-    let head = ["scheme", "dampers", "order observed", "error at 50 µs [m]"];
-    block("docs/schemes-measured.md", "damped orders", &table(&head, &rows));
+    case.check_all(|_, damped| damped, [4_000, 500, 320]);
 }
 
 #[test]

@@ -116,7 +116,7 @@ fn laws_by_matrices_and_tables_are_exported() {
     assert_eq!([&below[0], &below[3]], [&bits((500.0_f64 / 12e3) as f32), &bits(-60.0 / 12e3)]);
     let none = format!("[{}, {}]", bits(0.0), bits(0.0));
     let none = format!(
-        "torque_z: dbd_kernel::laws::Curve {{ knots: [{none}, [{}, {}]",
+        "torque_z: dbd_kernel::generated::Curve {{ knots: [{none}, [{}, {}]",
         bits(1.0),
         bits(0.0)
     );

@@ -233,10 +233,9 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         }
     }
 
-    /// A force evaluation at the present pose: dampers act at the present velocities with
-    /// [`ExplicitDampers`](crate::forces::ExplicitDampers); with
-    /// [`DampersLeft`](crate::forces::DampersLeft) they are left to [`Self::sweep_forward`] and
-    /// its reverse. A step has at least one evaluation [`At::Boundary`].
+    /// A force evaluation at the present pose: dampers act at the present velocities with [`ExplicitDampers`]; with
+    /// [`DampersLeft`] they are left to [`Self::sweep_forward`] and its reverse. A step has at least one evaluation
+    /// [`At::Boundary`].
     ///
     /// # Errors
     /// [`Cause::UndefinedTorsionAngle`] names the torsion spring whose torsion angle is undefined, [`Cause::Undefined`] the
@@ -298,7 +297,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     }
 
     /// Whether the wrenches are those of the present pose, its inputs and this step's loads, without dampers: the last
-    /// evaluation was with [`DampersLeft`](crate::forces::DampersLeft), [`At::Boundary`], and nothing has moved since,
+    /// evaluation was with [`DampersLeft`], [`At::Boundary`], and nothing has moved since,
     /// even in the last step.
     #[inline]
     #[must_use]
