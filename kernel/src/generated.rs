@@ -2,23 +2,26 @@
 //!
 //! `host-sim export` and build scripts write `use dbd_kernel::generated::*;`.
 
-pub use crate::body::{Body, BodyState};
-pub use crate::elements::input::{Input, InputKind, Knot};
-pub use crate::elements::load::{Load, LoadFrame};
-pub use crate::elements::point_bushing::PointBushing;
-pub use crate::elements::point_on_line::PointOnLine;
-pub use crate::elements::revolute::Revolute;
-pub use crate::elements::source::{Sensor, Source, SourceLaw};
-pub use crate::elements::torsion_spring::TorsionSpring;
-pub use crate::elements::tsda::Tsda;
-pub use crate::elements::universal::Universal;
-pub use crate::fixed::{Fixed, FixedPlace, FixedPoint, FixedTurn, FixedVelocity};
-pub use crate::geometry::{F32, F64};
-pub use crate::index::{BodyIndex, ClearanceIndex, DamperIndex, InputIndex, LawIndex};
-pub use crate::laws::{CoordinateKind, Curve, Hinge, Ldl, Term};
-pub use crate::model::{Group, Law, Model, Planned};
-pub use crate::planar::{Planar32, Planar64};
-pub use crate::plane::{Axial, Heading, Vec2};
-pub use crate::plant::{Plant, PlantError};
-pub use crate::readouts::{Readout, Slide};
-pub use crate::vector::{Quaternion, Vec3};
+#[doc(no_inline)]
+pub use crate::{
+    body::{Body, BodyState},
+    elements::input::{Input, InputKind, Knot},
+    elements::load::{Load, LoadFrame},
+    elements::point_bushing::PointBushing,
+    elements::point_on_line::PointOnLine,
+    elements::revolute::Revolute,
+    elements::source::{Sensor, Source, SourceLaw},
+    elements::torsion_spring::TorsionSpring,
+    elements::tsda::Tsda,
+    elements::universal::Universal,
+    fixed::{Fixed, FixedPlace, FixedPoint, FixedTurn, FixedVelocity},
+    geometry::{F32, F64},
+    index::{BodyIndex, ClearanceIndex, DamperIndex, InputIndex, LawIndex},
+    laws::{CoordinateKind, Curve, Hinge, Ldl, Term},
+    model::{Group, Law, Model, Planned},
+    planar::{Planar32, Planar64},
+    plane::{Axial, Heading, Vec2},
+    plant::{Plant, PlantError},
+    readouts::{Readout, Slide},
+    vector::{Quaternion, Vec3},
+};

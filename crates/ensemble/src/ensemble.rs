@@ -175,7 +175,10 @@ impl<R: Number, S: InLanes + Send + 'static> Ensemble<R, S> {
         self.batches[instance / lanes].member(instance % lanes)
     }
 
-    /// The status of an instance.
+    /// The result of an instance's last step.
+    ///
+    /// # Errors
+    /// The latched failure.
     ///
     /// # Panics
     /// If there is no such instance.

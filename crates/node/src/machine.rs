@@ -28,10 +28,16 @@ pub trait Machine {
     /// Reads a sensor; `None` if the machine has no such sensor or its value is undefined.
     fn read(&self, readout: &Readout<Self::Precision>) -> Option<Reading<Self::Real>>;
 
-    /// Steps until `steps` are done or one fails.
+    /// `steps` steps.
+    ///
+    /// # Errors
+    /// The latched failure; the steps before it are done.
     fn advance(&mut self, steps: u64) -> Result<(), Failure>;
 
-    /// The status of the last step.
+    /// The result of the last step.
+    ///
+    /// # Errors
+    /// The latched failure.
     fn status(&self) -> Result<(), Failure>;
 
     /// Steps since t = 0.

@@ -19,9 +19,15 @@ use crate::number_format::NumberFormat;
 /// or [`AnyPlant::restore`].
 pub trait AnyPlant: Send {
     /// One step.
+    ///
+    /// # Errors
+    /// The latched failure.
     fn step(&mut self) -> Result<(), Failure>;
 
-    /// `n` steps with held inputs; stops at a failure.
+    /// `n` steps with held inputs.
+    ///
+    /// # Errors
+    /// As [`Self::step`]; the steps before it are done.
     fn advance(&mut self, n: u64) -> Result<(), Failure>;
 
     /// Sets an input and its rate until they are set again: a force \[N\], a torque \[N·m\], or the
@@ -76,7 +82,10 @@ pub trait AnyPlant: Send {
     /// FNV-1a 64 over the state's stored words: the same on every machine for the same bits.
     fn hash(&self) -> u64;
 
-    /// The status of the last step.
+    /// The result of the last step.
+    ///
+    /// # Errors
+    /// The latched failure.
     fn status(&self) -> Result<(), Failure>;
 
     /// \[s\] the present time: steps done times the step, never accumulated.
