@@ -1,10 +1,12 @@
 //! The correctly rounded square root: the FPU's where it has one, pure Rust elsewhere.
 //!
 //! IEEE 754 rounds the root correctly, so the bits are the same either way. `core` has no root; libm's is the host's
-//! instruction on x86-64 and about a hundred instructions on a Cortex-M, where the single-precision FPU needs one.
-//! WebAssembly has an instruction for both, which only `std` exposes.
+//! instruction on x86-64 and a hundred instructions or more on microcontrollers, whose FPUs need one. The ABI of a
+//! Cortex-M tells of an FPU of single precision; the feature `fpu` of what no stable `cfg` tells: of double precision
+//! there, and of any on RISC-V. WebAssembly has an instruction for both, which only `std` exposes.
 
 /// √x in double precision.
+#[cfg(not(all(feature = "fpu", target_arch = "arm", target_os = "none", target_abi = "eabihf")))]
 #[inline(always)]
 pub fn sqrt_f64(x: f64) -> f64 {
     #[cfg(target_family = "wasm")]
@@ -13,14 +15,58 @@ pub fn sqrt_f64(x: f64) -> f64 {
     libm::sqrt(x)
 }
 
+/// √x in double precision, by VSQRT of an FPU that has it, as a Cortex-M7's.
+#[cfg(all(feature = "fpu", target_arch = "arm", target_os = "none", target_abi = "eabihf"))]
+#[allow(unsafe_code)]
+#[inline(always)]
+pub fn sqrt_f64(x: f64) -> f64 {
+    let bits = x.to_bits();
+    let (low, high): (u32, u32);
+    // SAFETY: the instructions read and write the named registers only, touch no memory and no condition flags.
+    unsafe {
+        core::arch::asm!(
+            "vmov d0, {low}, {high}",
+            // VSQRT.F64 d0, d0, by its code: the assembler takes the name only where the compiler's target has it.
+            ".inst.w 0xeeb10bc0",
+            "vmov {low}, {high}, d0",
+            low = inlateout(reg) bits as u32 => low,
+            high = inlateout(reg) (bits >> 32) as u32 => high,
+            out("d0") _,
+            options(pure, nomem, nostack, preserves_flags),
+        );
+    }
+    f64::from_bits(u64::from(high) << 32 | u64::from(low))
+}
+
 /// √x in single precision.
-#[cfg(not(all(target_arch = "arm", target_os = "none", target_abi = "eabihf")))]
+#[cfg(not(any(
+    all(target_arch = "arm", target_os = "none", target_abi = "eabihf"),
+    all(feature = "fpu", target_arch = "riscv32")
+)))]
 #[inline(always)]
 pub fn sqrt_f32(x: f32) -> f32 {
     #[cfg(target_family = "wasm")]
     return x.sqrt();
     #[cfg(not(target_family = "wasm"))]
     libm::sqrtf(x)
+}
+
+/// √x in single precision, by FSQRT.S.
+#[cfg(all(feature = "fpu", target_arch = "riscv32"))]
+#[allow(unsafe_code)]
+#[inline(always)]
+pub fn sqrt_f32(x: f32) -> f32 {
+    let root: f32;
+    // SAFETY: the instruction reads and writes the named registers only and touches no memory.
+    unsafe {
+        core::arch::asm!(
+            "fsqrt.s {root}, {x}",
+            x = in(freg) x,
+            root = lateout(freg) root,
+            options(pure, nomem, nostack, preserves_flags),
+        );
+    }
+    root
 }
 
 /// √x in single precision, by VSQRT: the hard-float ABI implies the FPU.

@@ -110,6 +110,9 @@ enum Command {
         /// Count what a step costs more with each element, and write docs/results/elements.csv.
         #[arg(long, conflicts_with_all = ["compare", "scenes", "baseline", "guards"])]
         elements: bool,
+        /// Count steps on each core of `host-sim new firmware`, and write docs/results/cores.csv.
+        #[arg(long, conflicts_with_all = ["compare", "scenes", "baseline", "guards", "elements"])]
+        cores: bool,
     },
     /// Counts the instructions of a step on this machine, by valgrind's callgrind, compared with the flops of a
     /// step, a plain loop and the baseline of this compiler and target.
@@ -229,6 +232,7 @@ fn main() -> ExitCode {
         Command::Cost { baseline: true, .. } => cost::baseline(),
         Command::Cost { guards: true, .. } => cost::guards::run(),
         Command::Cost { elements: true, .. } => cost::elements::run(),
+        Command::Cost { cores: true, .. } => cost::cores::run(),
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Instructions { baseline } => instructions::run(baseline),
         Command::Growth => growth::run(),

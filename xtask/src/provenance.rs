@@ -46,11 +46,12 @@ const fn data(
     Data { file, stands_on, command }
 }
 
-const DATA: [Data; 17] = [
+const DATA: [Data; 18] = [
     data("docs/costs.csv", SAMPLE, "cargo xtask cost"),
     data("docs/costs-mix.csv", SAMPLE, "cargo xtask cost"),
     data("docs/results/guards.csv", SAMPLE, "cargo xtask cost --guards"),
     data("docs/results/elements.csv", SAMPLE, "cargo xtask cost --elements"),
+    data("docs/results/cores.csv", SAMPLE, "cargo xtask cost --cores"),
     data("docs/results/instructions.csv", INSTRUCTIONS, "cargo xtask instructions --baseline"),
     data("docs/results/bench.json", INSTRUCTIONS, "cargo xtask bench"),
     data("docs/results/ensembles.csv", INSTRUCTIONS, "cargo xtask bench"),

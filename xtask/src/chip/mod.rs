@@ -1,6 +1,7 @@
 //! The target: its compiler and tools, the firmware's images, the emulator that runs them.
 
 pub mod c_project;
+pub mod cores;
 pub mod debian;
 pub mod emulator;
 pub mod firmware;

@@ -5,12 +5,13 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 
 use crate::built::{Program, host_sim};
 use crate::chip::firmware::{LIBRARIES, within};
-use crate::chip::{Toolchain, c_project};
+use crate::chip::{Toolchain, c_project, cores};
 use crate::command::{output, program, root, run, shown};
 
 const NAME: &str = "new-project";
@@ -44,7 +45,7 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
             Ok(())
         }
     });
-    let checked = checked.and_then(|()| in_double_precision(toolchain, &host_sim, &folder));
+    let checked = checked.and_then(|()| cores::check(&host_sim, &folder));
     let checked = checked.and_then(|()| c_project::check(toolchain, &folder, &host_sim, here));
     fs::remove_dir_all(&folder)?;
     checked
@@ -76,32 +77,11 @@ const CONTROLLED: [Controlled; 2] = [
     },
 ];
 
-/// A scene, and a core with double precision in hardware: a step in software takes about 190,000 instructions.
-const DOUBLE: [&str; 2] = ["scenes/hexagon.toml", "cortex-m7"];
-const MOST: u64 = 20_000;
-/// What the program `cost` prints before the mean.
-const COUNTED: &str = "mean ";
-
-/// The bits of double precision in hardware are those of the PC.
-fn in_double_precision(toolchain: &Toolchain, host_sim: &Path, folder: &Path) -> Result<()> {
-    let [scene, core] = DOUBLE;
-    let options = ["--precision", "f64", "--scheme", "leapfrog", "--core", core];
-    let project = written(host_sim, &folder.join(core), scene, &options)?;
-    on_the_target(toolchain, &project)?;
-    let mut command = toolchain.cargo("run", LIBRARIES);
-    within(&mut command, toolchain, &project);
-    let printed = output(command.args(["--bin", "cost"]))?;
-    println!("{printed}");
-    let mean = printed.split_once(COUNTED).and_then(|(_, rest)| rest.split(',').next());
-    let mean: u64 = mean.context("no count of instructions")?.parse()?;
-    if mean > MOST {
-        bail!("a step takes {mean} instructions: its double precision is not in hardware");
-    }
-    Ok(())
-}
-
 /// A project in a folder, with the versions that the repository's lock file names.
-fn written(host_sim: &Path, project: &Path, scene: &str, options: &[&str]) -> Result<PathBuf> {
+///
+/// # Errors
+/// Where it cannot be written.
+pub fn written(host_sim: &Path, project: &Path, scene: &str, options: &[&str]) -> Result<PathBuf> {
     run(program(host_sim)
         .args(["new", "firmware"])
         .arg(project)
@@ -154,6 +134,14 @@ fn of_the_notebook(folder: &Path) -> Result<Option<PathBuf>> {
 fn on_the_target(toolchain: &Toolchain, project: &Path) -> Result<()> {
     let mut command = toolchain.cargo("run", LIBRARIES);
     within(&mut command, toolchain, project);
+    compare(command, project)
+}
+
+/// What a command prints is a project's golden bits.
+///
+/// # Errors
+/// Where it fails or bits differ.
+pub fn compare(mut command: Command, project: &Path) -> Result<()> {
     println!("$ {}", shown(&command));
     let printed = output(&mut command)?;
     let golden = fs::read_to_string(project.join("tests/golden.txt"))?;

@@ -75,7 +75,11 @@ fn toolchain() -> Result<Toolchain> {
     Ok(toolchain)
 }
 
-fn tool(role: &str, name: &str, package: &str, otherwise: &str) -> Result<()> {
+/// Finds or installs a program and prints its version.
+///
+/// # Errors
+/// If it is missing and cannot be installed.
+pub fn tool(role: &str, name: &str, package: &str, otherwise: &str) -> Result<()> {
     if find(name).is_none() {
         debian::install(&format!("the {role} {name}"), &[package], otherwise)?;
     }

@@ -7,6 +7,7 @@
 
 pub mod baseline;
 mod compare;
+pub mod cores;
 mod cycles;
 pub mod elements;
 mod goals;

@@ -36,8 +36,7 @@ const FMU: &str = "dbd-fmu";
 const EVERYTHING: [&str; 2] = ["--workspace", "--all-features"];
 /// Targets that the kernel is checked for beside the firmware's: without an FPU, without
 /// instructions for it, with a newer core.
-const OTHER_TARGETS: [&str; 3] =
-    ["thumbv7em-none-eabi", "thumbv6m-none-eabi", "thumbv8m.main-none-eabihf"];
+const OTHER_TARGETS: [&str; 2] = ["thumbv7em-none-eabi", "thumbv6m-none-eabi"];
 /// The program that looks at reports in a browser; a plain `cargo test` leaves its tests out.
 const BROWSER: &str = "tests::browser";
 /// The slowest tests that are named.
@@ -236,7 +235,7 @@ fn release(
 /// The kernel and what compares trajectories compile for every target, the kernel with all features for
 /// the firmware's.
 fn other_targets(steps: &mut Steps) {
-    steps.step("kernel for the firmware's target and three more", || {
+    steps.step("kernel for the firmware's target and two more", || {
         let targets = [setup::TARGET].into_iter().chain(OTHER_TARGETS);
         let toolchains = targets.map(Toolchain::find).collect::<Result<Vec<_>>>()?;
         let check = |toolchains: &[Toolchain], options: &[&str]| {

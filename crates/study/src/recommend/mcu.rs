@@ -23,7 +23,7 @@ pub struct Mcu {
 }
 
 /// All of them.
-pub const MCUS: [Mcu; 5] = [
+pub const MCUS: [Mcu; 6] = [
     Mcu {
         name: "cortex-m0plus",
         clock: 64e6,
@@ -58,6 +58,13 @@ pub const MCUS: [Mcu; 5] = [
         cycles: 1.4,
         factors: [1.0; 3],
         basis: "counts of Cortex-M4F: Armv8-M runs the same instructions",
+    },
+    Mcu {
+        name: "rv32imafc",
+        clock: 144e6,
+        cycles: 1.4,
+        factors: [1.0; 3],
+        basis: "counted: single precision in hardware, double by software",
     },
 ];
 

@@ -4,8 +4,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
-use dbd_plant::PrecisionName;
+use clap::Args;
 use dbd_plant::digits::significant;
 use dbd_plant::time::rounded;
 use dbd_scene::Scene;
@@ -13,33 +12,11 @@ use dbd_scene::export::constant_name;
 use dbd_study::costs::Costs;
 use dbd_study::estimate::instructions;
 
+use super::core::Core;
 use super::plant::Planted;
 use super::{NewError, Place, PlantArguments};
 use crate::commands::schema;
 use crate::terminal::Found;
-
-/// A core of a microcontroller, with the machine of QEMU that has it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Core {
-    /// Single precision in hardware
-    #[default]
-    CortexM4f,
-    /// Double precision in hardware, too
-    CortexM7,
-}
-
-impl Core {
-    /// Its name, the machine of QEMU, options of the compiler in cargo's configuration.
-    fn values(self) -> [(&'static str, &'static str); 3] {
-        let [name, machine, flags] = match self {
-            Self::CortexM4f => ["Cortex-M4F", "mps2-an386", ""],
-            Self::CortexM7 => {
-                ["Cortex-M7", "mps2-an500", "rustflags = [\"-C\", \"target-cpu=cortex-m7\"]\n"]
-            }
-        };
-        [("core", name), ("machine", machine), ("flags", flags)]
-    }
-}
 
 /// A project for a microcontroller.
 #[derive(Clone, Debug, Args)]
@@ -95,9 +72,9 @@ pub fn firmware(arguments: &FirmwareArguments, found: &Found) -> Result<String, 
     let place = Place::of(&plant.name)?;
     let Planted { scene, choice, dependencies, golden, mut values, file } =
         Planted::of(&place, found, plant)?;
-    // Instructions were counted on a Cortex-M4F, which has double precision in software.
-    let counted = *core == Core::CortexM4f || choice.method.precision() != PrecisionName::F64;
-    let estimate = instructions(scene, &choice.method, &Costs::shipped()).filter(|_| counted);
+    let counted = instructions(scene, &choice.method, &Costs::shipped());
+    let estimate =
+        counted.and_then(|count| core.mcu().instructions(choice.method.precision(), count));
     let estimate = estimate.map_or_else(String::new, |count| {
         format!(
             "about {} instructions per step, estimated from bodies and elements",
@@ -110,8 +87,8 @@ pub fn firmware(arguments: &FirmwareArguments, found: &Found) -> Result<String, 
         ("hints", hints(scene, &suffix)),
         ("constants", constants(scene, &suffix)),
     ]);
-    values.extend(core.values().map(|(name, value)| (name, value.to_owned())));
-    let [(_, core), ..] = core.values();
+    values.extend(core.placeholders(&dependencies.kernel));
+    let core = core.title();
     let golden_file = (PathBuf::from("tests/golden.txt"), golden);
     let schema_file = (PathBuf::from(format!("scenes/{}", schema::FILE)), schema::text());
     place.write(TEMPLATES, &values, vec![file, golden_file, schema_file])?;
@@ -175,6 +152,8 @@ fn constants(scene: &Scene, suffix: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use clap::ValueEnum as _;
+
     use super::super::DependencyOptions;
     use super::super::choice::ChoiceOptions;
     use super::*;
@@ -183,20 +162,28 @@ mod tests {
     #[test]
     fn every_name_in_a_template_is_known() {
         let here = tempfile::tempdir().unwrap();
-        let folder = here.path().join("plant");
+        let folder = here.path();
         let found = crate::terminal::Catalogue::default().load("gyroscope").unwrap();
-        let name = folder.clone();
         let dependencies = DependencyOptions { registry: true, ..DependencyOptions::default() };
         let choice = ChoiceOptions::default();
         let scene = "gyroscope".to_owned();
-        let plant = PlantArguments { name, scene, dependencies, choice };
-        firmware(&FirmwareArguments { plant, core: Core::CortexM7 }, &found).unwrap();
-        for (path, _) in TEMPLATES {
-            let text = std::fs::read_to_string(folder.join(path)).unwrap();
-            assert!(!text.contains("{{"), "{path}: {text}");
-            assert!(!text.contains("M4F") && !text.contains("an386"), "{path}: {text}");
+        let plant = PlantArguments { name: folder.into(), scene, dependencies, choice };
+        for core in Core::value_variants() {
+            let name = folder.join(core.title());
+            let plant = PlantArguments { name, ..plant.clone() };
+            let written = plant.name.clone();
+            firmware(&FirmwareArguments { plant, core: *core }, &found).unwrap();
+            let read = |path: &str| std::fs::read_to_string(written.join(path)).unwrap();
+            for (path, _) in TEMPLATES {
+                let text = read(path);
+                assert!(!text.contains("{{"), "{path}: {text}");
+                let other = ["M4F", "an386", "thumbv7em", "STM32F405"];
+                let alone =
+                    *core == Core::CortexM4f || *core == Core::CortexM7 && text.contains("v7em");
+                assert!(alone || !other.iter().any(|word| text.contains(word)), "{path}: {text}");
+            }
+            let fpu = matches!(core, Core::CortexM7 | Core::Rv32imafc);
+            assert_eq!(read("Cargo.toml").contains("features = [\"fpu\"]"), fpu);
         }
-        let settings = std::fs::read_to_string(folder.join(".cargo/config.toml")).unwrap();
-        assert!(settings.contains("mps2-an500") && settings.contains("target-cpu=cortex-m7"));
     }
 }

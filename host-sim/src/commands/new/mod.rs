@@ -4,6 +4,7 @@
 
 mod c;
 mod choice;
+mod core;
 mod dependencies;
 mod firmware;
 mod folder;
@@ -25,8 +26,9 @@ use crate::help;
 use choice::{ChoiceError, ChoiceOptions};
 
 pub use c::c;
+pub use core::Core;
 pub use dependencies::{DependencyOptions, NoSources};
-pub use firmware::{Core, FirmwareArguments, firmware};
+pub use firmware::{FirmwareArguments, firmware};
 pub use laws::{LawsArguments, laws};
 pub use name::NameError;
 pub use scene::{SceneArguments, scene};

@@ -77,8 +77,16 @@ const DEVICES: &[&str] = &[
 ];
 
 /// Crates that the project uses.
-const USED: &[&str] =
-    &["cortex-m", "cortex-m-rt", "dbd-kernel", "dbd-scene", "libm", "semihosting"];
+const USED: &[&str] = &[
+    "cortex-m",
+    "cortex-m-rt",
+    "dbd-kernel",
+    "dbd-scene",
+    "libm",
+    "riscv",
+    "riscv-rt",
+    "semihosting",
+];
 
 /// Letters of a name: what file systems and registries take.
 const LONGEST: usize = 64;
