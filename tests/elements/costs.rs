@@ -4,9 +4,12 @@ use dbd_tests::page::{block, grouped, table};
 use dbd_tests::results::rows;
 
 /// Elements as counted: name of the scene, what it is, the most instructions that it ought to cost.
-const ELEMENTS: [(&str, &str, Option<f64>); 26] = [
+const ELEMENTS: [(&str, &str, Option<f64>); 29] = [
     ("tsda", "a TSDA without damping", None),
     ("spring-table", "`distance-spring`, five knots", None),
+    ("damper-table", "`distance-damper`, five knots", None),
+    ("hinge-spring", "`hinge-spring`, five knots", None),
+    ("hinge-damper", "`hinge-damper`, five knots", None),
     ("winch", "a TSDA with damping and an input of its free length", None),
     ("limits-free", "`limits` of a revolute joint with dissipation, within the range", Some(250.0)),
     ("limits-reached", "the same, beyond it", Some(250.0)),

@@ -1,5 +1,6 @@
 //! Tables of docs/advise.md.
 
+use dbd_plant::PrecisionName;
 use dbd_study::recommend::MCUS;
 use dbd_tests::page::{block, figure, grouped, table};
 use dbd_tests::results::{Row, rows};
@@ -9,11 +10,12 @@ fn advice_is_as_it_was_held() {
     let mcus: Vec<Vec<String>> = MCUS
         .iter()
         .map(|mcu| {
-            let factor = |row: usize| figure(mcu.factors[row], 3);
+            let factor = |precision| figure(mcu.factor(precision).expect("a supported one"), 3);
             let clock = format!("{} MHz", mcu.clock * 1e-6);
             let name = format!("`{}`", mcu.name);
             let basis = mcu.basis.to_owned();
-            vec![name, clock, mcu.cycles.to_string(), factor(0), factor(1), factor(2), basis]
+            let factors = [PrecisionName::F32, PrecisionName::Fixed, PrecisionName::F64].map(factor);
+            [vec![name, clock, mcu.cycles.to_string()], factors.to_vec(), vec![basis]].concat()
         })
         .collect();
     let head = [

@@ -1,15 +1,31 @@
 //! Estimated cost of a step on Cortex-M4F, for scenes whose steps were not counted.
 //!
 //! `(scene, method, counts) => instructions per step`. A step of leapfrog in f32 has fixed numbers of instructions per
-//! body, per rotation axis of a body, and per element; another scheme or precision scales it by the median ratio of
-//! counted scenes. Inputs hold their values. A test compares it with every counted row.
+//! body, per rotation axis of a body, and per element; those of laws are counted by `cargo xtask cost --elements`.
+//! Another scheme or precision scales it by the median ratio of counted scenes. Inputs hold their values. A test compares
+//! it with every counted row.
 
 use dbd_kernel::model::{Group, Law};
 use dbd_plant::plan::step_of;
 use dbd_plant::{DampingName, Frequencies, Method, Named as _, PrecisionName, SchemeName, plant};
 use dbd_scene::Scene;
+use serde::Deserialize;
 
 use crate::costs::Costs;
+
+/// Instructions of a step more with each element, as counted.
+const ELEMENTS: &str = include_str!("../elements.csv");
+
+/// Instructions of both damper passes per body without a damper, from a trace of a limit within its range.
+const PASSES: f64 = 140.0;
+
+/// The columns that are read.
+#[derive(Deserialize)]
+struct Element {
+    element: String,
+    instructions_mean: f64,
+    planar_instructions_mean: Option<f64>,
+}
 
 /// Steps after which the rotation axes are determined: as many as are counted.
 const STEPS: u64 = 68;
@@ -36,9 +52,6 @@ struct Share {
     levers: [f64; 2],
     /// Joint-wise, of a group that still uses sweeps, in addition to its dampers.
     swept: f64,
-    /// Of each law, its first body the ground: stops within their range, friction that slides. Counted by `cargo cost`
-    /// in projects of `host-sim new firmware` with one joint, less the same without the law.
-    laws: [(&'static str, f64); 10],
 }
 
 const IN_SPACE: Share = Share {
@@ -54,18 +67,6 @@ const IN_SPACE: Share = Share {
     torsion_damper: [920.0, 885.0],
     levers: [196.0, 305.0],
     swept: 0.0,
-    laws: [
-        ("end-stop", 530.0),
-        ("hinge-stop", 1108.0),
-        ("distance-stop", 470.0),
-        ("hinge-friction", 2567.0),
-        ("slide-friction", 1472.0),
-        ("plane-contact", 3480.0),
-        ("distance-spring", 136.0),
-        ("distance-damper", 1230.0),
-        ("hinge-spring", 261.0),
-        ("hinge-damper", 1202.0),
-    ],
 };
 
 /// From the planar scenes that were counted.
@@ -82,18 +83,6 @@ const IN_PLANE: Share = Share {
     torsion_damper: [450.0, 345.0],
     levers: [130.0, 260.0],
     swept: 1100.0,
-    laws: [
-        ("end-stop", 413.0),
-        ("hinge-stop", 765.0),
-        ("distance-stop", 406.0),
-        ("hinge-friction", 1653.0),
-        ("slide-friction", 1070.0),
-        ("plane-contact", 1920.0),
-        ("distance-spring", 110.0),
-        ("distance-damper", 937.0),
-        ("hinge-spring", 199.0),
-        ("hinge-damper", 891.0),
-    ],
 };
 
 /// Instructions of a step of a scene by a method; `None` for a damping mode, scheme or precision without counts, for
@@ -109,7 +98,9 @@ pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f
     };
     let name = method.scheme_name();
     let kicks = name == SchemeName::Leapfrog.name() || name == SchemeName::SemiImplicitEuler.name();
-    if !kicks && !model.dampers.is_empty() {
+    let interactions = dbd_scene::interactions(scene);
+    let damped = interactions.iter().filter(|interaction| interaction.dampers > 0).count();
+    if !kicks && (!model.dampers.is_empty() || damped > 0) {
         return None;
     }
     let mut sum = share.body * model.bodies.len() as f64;
@@ -129,10 +120,11 @@ pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f
     }
     let turned = model.torsions.iter().filter(|spring| spring.damper.row().is_some()).count();
     sum += share.torsion_damper[usize::from(joint_wise)] * turned as f64;
-    for interaction in dbd_scene::interactions(scene) {
-        let law = share.laws.iter().find(|(name, _)| *name == interaction.law)?;
-        sum += law.1;
+    for interaction in interactions {
+        sum += of_law(interaction.law, interaction.dampers > 0, scene.planar.is_some())?;
     }
+    // The passes over all bodies are part of each damped element as it was counted, and made once.
+    sum -= PASSES * model.bodies.len() as f64 * damped.saturating_sub(1) as f64;
     let ratio = counted.over_leapfrog(
         name,
         method.newton(),
@@ -140,6 +132,49 @@ pub fn instructions(scene: &Scene, method: &Method, counted: &Costs) -> Option<f
         method.orientation_name(),
     )?;
     Some(sum * ratio)
+}
+
+/// The counted element of a law: limits within their range, contacts in contact, friction that slides.
+fn element(law: &str, damped: bool) -> Option<&'static str> {
+    Some(match law {
+        "end-stop" | "hinge-stop" | "distance-stop" => "limits-free",
+        "soft-end-stop" | "soft-hinge-stop" | "soft-distance-stop" => "limits-soft",
+        "plane-contact" => "contact-pressed",
+        "sphere-contact" => "balls",
+        "wheel-contact" => "wheel",
+        "bushing" if damped => "bushing",
+        "bushing" => "bushing-undamped",
+        "bushing-curves" => "bushing-curves",
+        "bushing-matrix" => "bushing-matrix",
+        "bushing-maxwell" => "bushing-maxwell",
+        "distance-spring" => "spring-table",
+        "distance-damper" => "damper-table",
+        "distance-winch" => "winch",
+        "hinge-spring" => "hinge-spring",
+        "hinge-damper" => "hinge-damper",
+        "hinge-friction" | "slide-friction" => "friction",
+        "hinge-friction-load" | "slide-friction-load" => "friction-load",
+        "hinge-servo" | "slide-servo" => "servo",
+        "hinge-drive" | "slide-drive" => "drive",
+        "hinge-drive-friction" | "slide-drive-friction" => "drive",
+        "hinge-drive-dq" => "drive-dq",
+        "hinge-sensor" | "slide-sensor" => "sensor",
+        "hinge-actuator" | "slide-actuator" => "actuator",
+        "coupling" => "coupling",
+        _ => return None,
+    })
+}
+
+/// Instructions of a law in a step of leapfrog in f32; `None` for a custom law.
+///
+/// # Panics
+/// Never: a test reads the table.
+fn of_law(law: &str, damped: bool, planar: bool) -> Option<f64> {
+    let name = element(law, damped)?;
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(ELEMENTS.as_bytes());
+    let rows = reader.deserialize().map(|row| row.expect("a test reads the table"));
+    let row: Element = rows.into_iter().find(|row: &Element| row.element == name)?;
+    if planar { row.planar_instructions_mean } else { Some(row.instructions_mean) }
 }
 
 impl Share {
@@ -185,4 +220,20 @@ fn turning(scene: &Scene) -> usize {
     let Some(state) = stepped else { return all };
     let rates = state.bodies.iter().flat_map(|body| body.angular_velocity.to_f64());
     rates.filter(|rate| *rate != 0.0).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_law_of_the_kernel_has_been_counted() {
+        for law in dbd_scene::laws::known_laws() {
+            for damped in [false, true] {
+                let count = of_law(law.name, damped, false);
+                assert!(count.is_some_and(|count| count > 0.0), "{} {count:?}", law.name);
+            }
+        }
+        assert_eq!(of_law("my-law", false, false), None);
+    }
 }

@@ -12,8 +12,8 @@ use crate::chip::setup;
 use crate::command::root;
 
 const FILE: &str = "docs/results/cores.csv";
-const SCENES: [&str; 5] =
-    ["four-bar", "hexagon", "3rrr", "double-wishbone", "delta-pick-and-place"];
+const SCENES: [&str; 6] =
+    ["four-bar", "hexagon", "3rrr", "double-wishbone", "macpherson", "delta-pick-and-place"];
 const PRECISIONS: [&str; 3] = ["f32", "fixed", "f64"];
 
 /// Counts and writes the file.
