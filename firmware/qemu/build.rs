@@ -5,6 +5,11 @@
 //! Link arguments stand here and not in a configuration, so that RUSTFLAGS in the environment
 //! cannot lose them; a host build gets none.
 
+#[path = "../../host-sim/templates/laws/cam.rs.in"]
+mod cam;
+#[path = "../../host-sim/templates/laws/drag.rs.in"]
+mod drag;
+
 use std::path::{Path, PathBuf};
 
 use dbd_scene::{Build, export};
@@ -76,6 +81,9 @@ const SOLVED: &[(&str, &str, &[&str], &[&str])] = &[
 const SPATIAL: &[&str] = &["bushing-matrix"];
 /// The golden hashes of scenes with laws.
 const LAWS: &str = "../../tests/bits/laws.csv";
+/// The scene of the project that `host-sim new laws` writes, with laws of its own.
+const OWN: &str = "drop";
+const DROP: &str = "../../host-sim/templates/laws/drop.toml.in";
 /// Linked from its own entry without start-up code: see its head.
 const AUDIT: &str = "audit";
 
@@ -213,21 +221,31 @@ fn elements() {
 }
 
 /// Models of the scenes with golden hashes of laws that the target has room and time for; the macro `lawful`: those of
-/// `tests/fuzz/corpus/scene`, in double precision for few steps, and the examples in the plane in single precision.
+/// `tests/fuzz/corpus/scene` and of the project that `host-sim new laws` writes, in double precision for few steps, and
+/// the examples in the plane in single precision.
 fn laws() {
     println!("cargo:rerun-if-changed={LAWS}");
+    println!("cargo:rerun-if-changed={DROP}");
     let golden = std::fs::read_to_string(LAWS).expect("the golden hashes of laws");
     let (mut modules, mut lines) = (String::new(), String::new());
     for row in golden.lines().skip(1) {
         let columns: Vec<&str> = row.split(',').collect();
         let &[name, _, precision, step, steps, _] = &columns[..] else { panic!("a row of {LAWS}") };
-        let together = PathBuf::from(format!("../../tests/fuzz/corpus/scene/{name}.toml"));
+        let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+        let together = match name {
+            OWN => out.join("drop.toml"),
+            _ => PathBuf::from(format!("../../tests/fuzz/corpus/scene/{name}.toml")),
+        };
+        if name == OWN {
+            write("drop.toml", &std::fs::read_to_string(DROP).expect("the scene of a project"));
+        }
         let build = match name.strip_suffix("-planar") {
             Some(name) if precision == "f32" => {
                 Build::scene(format!("../../docs/examples/{name}/{name}.toml")).set("planar=true")
             }
             None if together.exists() && (precision != "f64" || steps == "100") => {
-                Build::scene(together)
+                let build = Build::scene(together).law::<drag::Drag>("crate::own::Drag");
+                build.law::<cam::Cam>("crate::own::Cam")
             }
             _ => continue,
         };

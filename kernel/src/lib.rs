@@ -46,6 +46,7 @@
 //! |---|---|
 //! | `defmt` | on a microcontroller, `defmt::Format` on every public type |
 //! | `heapless` | [`builder`]: models of fixed capacity, assembled at run time |
+//! | `fpu` | square roots by instructions of a Cortex-M7 (f64) or RISC-V with F (f32); a core without them faults |
 //! | `nalgebra` | `From` and `Into` between the vectors and quaternions of both |
 //! | `micromath` | `approximate`: single precision with micromath's square root, for comparison |
 //!

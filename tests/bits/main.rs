@@ -6,11 +6,16 @@
 //! `DBD_BLESS=golden cargo test -p dbd-bits --all-features` writes the present hashes; a changed one needs its
 //! reason in the commit.
 
+#[path = "../../host-sim/templates/laws/cam.rs.in"]
+mod cam;
+#[path = "../../host-sim/templates/laws/drag.rs.in"]
+mod drag;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use dbd_plant::{DampingName, Method, Named as _, PrecisionName, SchemeName, plant};
-use dbd_scene::laws::known_laws;
+use dbd_scene::laws::{known_laws, register};
 use dbd_scene::{Scene, interactions};
 use dbd_tests::page::golden;
 use dbd_tests::{scene, scene_names};
@@ -44,6 +49,9 @@ const LAWFUL: [&str; 11] = [
 /// Examples of the documentation with laws.
 const EXAMPLES: [&str; 6] =
     ["balance-robot", "crane", "gate-opener", "grasp", "quarter-car", "wiper"];
+
+/// The scene of `host-sim new laws`, with the laws of that project.
+const OWN: &str = "drop";
 
 const F64: PrecisionName = PrecisionName::F64;
 const F32: PrecisionName = PrecisionName::F32;
@@ -204,16 +212,23 @@ fn states_in_the_plane_have_their_golden_hashes() {
 #[test]
 fn states_with_laws_have_their_golden_hashes() {
     let folder = |path: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
+    register::<drag::Drag>("my_laws::Drag");
+    register::<cam::Cam>("my_laws::Cam");
     let load = |file: PathBuf| {
-        let mut scene = Scene::load(&file).unwrap();
-        scene.name = file.file_stem().unwrap().to_string_lossy().into_owned();
+        let text = std::fs::read_to_string(&file).unwrap();
+        let mut scene = Scene::parse(&text, &file.to_string_lossy()).unwrap();
+        let name = file.file_name().unwrap().to_string_lossy();
+        scene.name = name.split('.').next().unwrap().to_owned();
         scene.step = Some(scene.step.unwrap_or(1e-4));
         scene
     };
     let (mut present, ways) = (format!("{HEADER}\n"), [way(SchemeName::Leapfrog)]);
     let mut unseen: BTreeSet<_> = known_laws().into_iter().map(|law| law.name).collect();
-    for name in LAWFUL {
-        let scene = load(folder("tests/fuzz/corpus/scene").join(name).with_extension("toml"));
+    for name in LAWFUL.into_iter().chain([OWN]) {
+        let scene = load(match name {
+            OWN => folder("host-sim/templates/laws/drop.toml.in"),
+            _ => folder("tests/fuzz/corpus/scene").join(name).with_extension("toml"),
+        });
         for law in interactions(&scene) {
             unseen.remove(law.law);
         }

@@ -84,6 +84,10 @@ impl Sources {
             let name = child.ident.to_string();
             let within = [&at[..], std::slice::from_ref(&name)].concat();
             own.insert(name.clone());
+            // A file of elsewhere uses what any user does.
+            if child.attrs.iter().any(|attribute| attribute.path().is_ident("path")) {
+                continue;
+            }
             if let Some((_, items)) = &child.content {
                 self.items(files, module, &within, items, &format!("{folder}{name}/"));
             } else {

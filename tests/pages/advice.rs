@@ -14,7 +14,8 @@ fn advice_is_as_it_was_held() {
             let clock = format!("{} MHz", mcu.clock * 1e-6);
             let name = format!("`{}`", mcu.name);
             let basis = mcu.basis.to_owned();
-            let factors = [PrecisionName::F32, PrecisionName::Fixed, PrecisionName::F64].map(factor);
+            let factors =
+                [PrecisionName::F32, PrecisionName::Fixed, PrecisionName::F64].map(factor);
             [vec![name, clock, mcu.cycles.to_string()], factors.to_vec(), vec![basis]].concat()
         })
         .collect();

@@ -64,3 +64,68 @@ fn what_a_solved_system_costs_is_as_measured() {
     let head = ["ns per step, std, f64", "leapfrog", "linearly implicit Euler", "ratio"];
     block("docs/real-time.md", "jacobian", &table(&head, &lines));
 }
+
+/// Microcontrollers and rates of the table of configurations.
+const MCUS: [(&str, &str); 2] =
+    [("cortex-m4f", "M4F, 168 MHz"), ("cortex-m7-double", "M7, 480 MHz")];
+const RATES: [&str; 3] = ["1000", "4000", "10000"];
+
+#[test]
+fn what_keeps_up_is_as_advised() {
+    let all = rows("docs/results/real-time.csv");
+    let mut scenes: Vec<&str> = all.iter().map(|row| row.text("scene")).collect();
+    scenes.dedup();
+    let cell = |scene: &str, mcu: &str, rate: &str| {
+        let wanted = [("scene", scene), ("mcu", mcu), ("rate_hz", rate)];
+        let row = all.iter().find(|row| row.is(&wanted)).unwrap();
+        let of = |column: &str| row.text(column).to_owned();
+        let model = Some(of("model")).filter(|model| model != "as it is");
+        let damping = Some(of("damping")).filter(|damping| !damping.is_empty());
+        let names = [model, Some(of("scheme")), damping, Some(of("precision"))];
+        let names = names.into_iter().flatten().collect::<Vec<_>>().join(", ");
+        let (step, load) = (1e6 * row.number("step_s"), 100.0 * row.number("load"));
+        let load = format!("{} %", figure(load, 2));
+        let load = if row.number("load") > 1.0 { format!("**{load}**") } else { load };
+        format!("{names}, {} µs: {load}", figure(step, 3))
+    };
+    let lines: Vec<Vec<String>> = scenes
+        .iter()
+        .flat_map(|scene| {
+            MCUS.map(|(mcu, called)| {
+                let cells = RATES.map(|rate| cell(scene, mcu, rate));
+                [vec![format!("`{scene}`"), called.to_owned()], cells.to_vec()].concat()
+            })
+        })
+        .collect();
+    let head = ["scene", "core", "1 kHz", "4 kHz", "10 kHz"];
+    block("docs/real-time.md", "configurations", &table(&head, &lines));
+}
+
+/// What each core has in hardware.
+const CORES: [(&str, &str, &str); 5] = [
+    ("cortex-m4f", "f32", "M4F, f32"),
+    ("cortex-m33", "f32", "M33, f32"),
+    ("rv32imafc", "f32", "RV32IMAFC, f32"),
+    ("cortex-m7", "f32", "M7, f32"),
+    ("cortex-m7", "f64", "M7, f64"),
+];
+
+#[test]
+fn steps_on_other_cores_are_as_counted() {
+    let all = rows("docs/results/cores.csv");
+    let mut scenes: Vec<&str> = all.iter().map(|row| row.text("scene")).collect();
+    scenes.sort_unstable();
+    scenes.dedup();
+    let lines: Vec<Vec<String>> = scenes
+        .into_iter()
+        .map(|scene| {
+            let count = |(core, precision, _): (&str, &str, &str)| {
+                let wanted = [("scene", scene), ("core", core), ("precision", precision)];
+                grouped(all.iter().find(|row| row.is(&wanted)).unwrap().text("instructions_mean"))
+            };
+            [vec![format!("`{scene}`")], CORES.map(count).to_vec()].concat()
+        })
+        .collect();
+    let head = [&["leapfrog"], &CORES.map(|(.., called)| called)[..]].concat();
+    block("docs/target.md", "cores", &table(&head, &lines));
+}

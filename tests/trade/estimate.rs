@@ -6,6 +6,7 @@ use dbd_plant::{DampingName, Method, Named as _, PrecisionName, SchemeName};
 use dbd_scene::Scene;
 use dbd_study::costs::Costs;
 use dbd_study::estimate::instructions;
+use dbd_tests::results::path;
 use dbd_tests::scene;
 
 /// What stands behind a scene's name in the table of costs, and the changes that make it.
@@ -96,5 +97,28 @@ fn damped_variants_are_estimated_as_they_were_counted() {
         let off = instructions(&scene, &method, &Costs::shipped()).unwrap() / count - 1.0;
         println!("{name} {changes:?} {}: {off:+.3}", damping.name());
         assert!(off.abs() < 0.1, "{name} {changes:?} {}: {off:+.3}", damping.name());
+    }
+}
+
+/// The same for the examples with laws: limits, friction, drives, contacts, couplings, of which one end may be the ground,
+/// and inputs, which are not estimated.
+const WITH_LAWS: [(&str, f64); 6] = [
+    ("gate-opener", 7_663.0),
+    ("quarter-car", 7_475.0),
+    ("balance-robot", 25_365.0),
+    ("crane", 15_442.0),
+    ("grasp", 35_713.0),
+    ("quadrotor", 3_170.0),
+];
+
+#[test]
+fn scenes_with_laws_are_estimated_within_a_quarter() {
+    for (name, count) in WITH_LAWS {
+        let file = path(&format!("docs/examples/{name}/{name}.toml"));
+        let scene = Scene::load(file).unwrap();
+        let method = Method::default().with_precision(PrecisionName::F32);
+        let off = instructions(&scene, &method, &Costs::shipped()).unwrap() / count - 1.0;
+        println!("{name}: {off:+.3}");
+        assert!(off.abs() < 0.25, "{name}: {off:+.3}");
     }
 }

@@ -11,7 +11,7 @@
 //! - [`chip`]: compiler, emulator and images of the target.
 //! - `baseline`, `provenance`: stored counts and measured data.
 //! - `audit`, `cost`, `callgrind`, `instructions`: forbidden calls of a step, and its cost.
-//! - `bench`, `growth`, `prove`, `precisions`, `compile_times`, `fuzz`: measurements and random input.
+//! - `bench`, `growth`, `prove`, `precisions`, `real_time`, `compile_times`, `fuzz`: measurements and random input.
 //! - `playground`, `bits`: the kernel in a browser; the same bits everywhere.
 //! - `boards`, `hil`, `python`, `libraries`, `packages`, `semver`: firmware, other languages, published crates.
 //! - `release`: artefacts for users, each tried.
@@ -40,6 +40,7 @@ mod precisions;
 mod prove;
 mod provenance;
 mod python;
+mod real_time;
 mod release;
 mod semver;
 mod steps;
@@ -121,6 +122,9 @@ enum Command {
         #[arg(long)]
         baseline: bool,
     },
+    /// Asks `host-sim advise` which configurations of practical scenes keep up with controllers; writes
+    /// docs/results/real-time.csv.
+    RealTime,
     /// Counts how the work of reading and checking a scene grows with its bodies, by valgrind's
     /// callgrind; writes docs/results/growth.csv, fails if it grows faster than the bodies.
     Growth,
@@ -236,6 +240,7 @@ fn main() -> ExitCode {
         Command::Cost { scenes, compare, .. } => cost::run(&scenes, compare),
         Command::Instructions { baseline } => instructions::run(baseline),
         Command::Growth => growth::run(),
+        Command::RealTime => real_time::run(),
         Command::Bench { arguments } => bench::run(&arguments),
         Command::Fuzz(campaign) => fuzz::run(&campaign),
         Command::Bits { names } => bits::machines::run(&names),

@@ -46,7 +46,7 @@ const fn data(
     Data { file, stands_on, command }
 }
 
-const DATA: [Data; 18] = [
+const DATA: [Data; 19] = [
     data("docs/costs.csv", SAMPLE, "cargo xtask cost"),
     data("docs/costs-mix.csv", SAMPLE, "cargo xtask cost"),
     data("docs/results/guards.csv", SAMPLE, "cargo xtask cost --guards"),
@@ -63,6 +63,7 @@ const DATA: [Data; 18] = [
     data("docs/results/timing.csv", BITS, SURVEY),
     data("docs/results/precisions-on-chip.csv", BITS, SURVEY),
     data("docs/results/advice.csv", BITS, ADVICE),
+    data("docs/results/real-time.csv", BITS, "cargo xtask real-time"),
     data("docs/results/peers.csv", BITS, "docs/validation/peers.py, then cargo xtask provenance"),
     data("docs/results/proof.csv", NUMBERS, "cargo xtask prove"),
     // Other programs, with their versions in the rows.

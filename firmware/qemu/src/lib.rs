@@ -10,6 +10,7 @@
 //! - [`models`], [`alone`]: shipped models, const and in flash; a model that shares no code with another.
 //! - [`console`]: arguments, lines and files of a program.
 //! - [`root`], [`sensors`], [`trajectory`], [`relay`]: square roots, sensors on a script, a recorded run, a run in two halves.
+//! - `own`: laws of a user's project.
 //! - [`mod@hash`], `laws`: hashes of shipped models, and of scenes with laws.
 //! - [`board`]: the hardware.
 //! - [`chart`], [`sample`], `elements`: which models and schemes are counted.
@@ -33,6 +34,8 @@ pub mod hash;
 pub mod hil;
 #[cfg(feature = "laws")]
 pub mod laws;
+#[cfg(feature = "laws")]
+pub mod own;
 pub mod relay;
 pub mod root;
 pub mod sample;

@@ -19,7 +19,7 @@ use crate::terminal::{Catalogue, Console, Exit, Found, Progress};
 pub(super) struct AdviseArguments {
     #[command(flatten)]
     pub(super) scene: SceneArgument,
-    /// Class of the microcontroller: cortex-m0plus, cortex-m4f, cortex-m7, cortex-m7-double, cortex-m33
+    /// Class of the microcontroller: cortex-m0plus, cortex-m4f, cortex-m7, cortex-m7-double, cortex-m33, rv32imafc
     #[arg(long, value_name = "NAME", default_value = "cortex-m4f")]
     mcu: String,
     /// Clock frequency, e.g. 168MHz [default: typical of the class]

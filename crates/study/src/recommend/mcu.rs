@@ -92,11 +92,10 @@ impl Mcu {
     /// precision that firmware does not support. Classes without counts run the instructions of a Cortex-M4F.
     #[must_use]
     pub fn factor(&self, precision: PrecisionName) -> Option<f64> {
-        let ratios = ratios(self.name, precision.name());
-        match precision {
-            PrecisionName::F32 | PrecisionName::Fixed | PrecisionName::F64 => {}
-            _ => return None,
+        if precision == PrecisionName::F32Micromath {
+            return None;
         }
+        let ratios = ratios(self.name, precision.name());
         let logarithms: f64 = ratios.iter().map(|ratio| libm::log(*ratio)).sum();
         Some(libm::exp(logarithms / ratios.len().max(1) as f64))
     }
@@ -138,7 +137,7 @@ mod tests {
                     assert!(off.abs() < 0.2, "{} {precision:?} {off:+.2}", mcu.name);
                 }
             }
-            assert_eq!(mcu.factor(PrecisionName::F32Compensated), None);
+            assert_eq!(mcu.factor(PrecisionName::F32Micromath), None);
         }
     }
 }
