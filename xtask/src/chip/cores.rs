@@ -2,14 +2,15 @@
 //!
 //! `host-sim new firmware --core => bits, instructions`. They are built beside the firmware, with its profile.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 
 use crate::chip::firmware::{LIBRARIES, PROFILE};
-use crate::chip::{Toolchain, project, setup};
-use crate::command::output;
+use crate::chip::{Toolchain, setup};
+use crate::command::{output, program, root, run, shown};
 
 /// A core of `host-sim new firmware`.
 pub struct Core {
@@ -66,7 +67,7 @@ pub fn check(host_sim: &Path, folder: &Path) -> Result<()> {
         let toolchain = core.toolchain()?;
         let options = ["--precision", precision, "--scheme", "leapfrog"];
         let project = core.written(host_sim, folder, SCENE, &options)?;
-        project::compare(core.command(&toolchain, &project), &project)?;
+        compare(core.command(&toolchain, &project), &project)?;
         let [mean, _] = core.count(&toolchain, &project)?;
         println!("{name}, {precision}: {mean} instructions");
         if mean > most {
@@ -99,7 +100,7 @@ impl Core {
         options: &[&str],
     ) -> Result<PathBuf> {
         let options: Vec<&str> = options.iter().copied().chain(["--core", self.name]).collect();
-        project::written(host_sim, &folder.join(self.name), scene, &options)
+        written(host_sim, &folder.join(self.name), scene, &options)
     }
 
     /// Instructions of a step, mean and maximum.
@@ -124,4 +125,35 @@ impl Core {
         command.args(["--profile", PROFILE, "--config", &profile]);
         command
     }
+}
+
+/// A project in a folder, with the versions that the repository's lock file names.
+///
+/// # Errors
+/// Where it cannot be written.
+pub fn written(host_sim: &Path, project: &Path, scene: &str, options: &[&str]) -> Result<PathBuf> {
+    run(program(host_sim)
+        .args(["new", "firmware"])
+        .arg(project)
+        .arg("--scene")
+        .arg(root().join(scene))
+        .args(options))?;
+    fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock"))?;
+    Ok(project.to_owned())
+}
+
+/// What a command prints is a project's golden bits.
+///
+/// # Errors
+/// Where it fails or bits differ.
+pub fn compare(mut command: Command, project: &Path) -> Result<()> {
+    println!("$ {}", shown(&command));
+    let printed = output(&mut command)?;
+    let golden = fs::read_to_string(project.join("tests/golden.txt"))?;
+    let expected = format!("{golden}status: ok\n");
+    if printed != expected {
+        bail!("the target printed\n{printed}the golden bits are\n{expected}");
+    }
+    println!("{printed}");
+    Ok(())
 }

@@ -5,14 +5,13 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use anyhow::{Context as _, Result, bail};
 
 use crate::built::{Program, host_sim};
 use crate::chip::firmware::{LIBRARIES, within};
 use crate::chip::{Toolchain, c_project, cores};
-use crate::command::{output, program, root, run, shown};
+use crate::command::{program, root, run};
 
 const NAME: &str = "new-project";
 /// What its golden test says of the first line that differs.
@@ -29,7 +28,7 @@ pub fn check(toolchain: &Toolchain, here: bool, programs: &[Program]) -> Result<
     // Not below the repository, whose .cargo/config.toml cargo would add to the project's.
     let folder = std::env::temp_dir().join(format!("dbd-{NAME}-{}", std::process::id()));
     fs::create_dir_all(&folder)?;
-    let first = written(&host_sim, &folder.join(NAME), SCENE, &[]);
+    let first = cores::written(&host_sim, &folder.join(NAME), SCENE, &[]);
     let controlled = CONTROLLED.map(|machine| machine.written(&host_sim, &folder));
     let checked = std::iter::once(first).chain(controlled).try_for_each(|project| {
         let project = project?;
@@ -77,21 +76,6 @@ const CONTROLLED: [Controlled; 2] = [
     },
 ];
 
-/// A project in a folder, with the versions that the repository's lock file names.
-///
-/// # Errors
-/// Where it cannot be written.
-pub fn written(host_sim: &Path, project: &Path, scene: &str, options: &[&str]) -> Result<PathBuf> {
-    run(program(host_sim)
-        .args(["new", "firmware"])
-        .arg(project)
-        .arg("--scene")
-        .arg(root().join(scene))
-        .args(options))?;
-    fs::copy(root().join("Cargo.lock"), project.join("Cargo.lock"))?;
-    Ok(project.to_owned())
-}
-
 impl Controlled {
     /// The project with its controller, as the cookbook says.
     fn written(&self, host_sim: &Path, folder: &Path) -> Result<PathBuf> {
@@ -101,7 +85,7 @@ impl Controlled {
         let scene = folder.join(format!("{}.toml", self.name));
         fs::write(&scene, kept.map(|line| format!("{line}\n")).collect::<String>())?;
         let project = folder.join(format!("{}-controlled", self.name));
-        let project = written(host_sim, &project, &scene.to_string_lossy(), self.options)?;
+        let project = cores::written(host_sim, &project, &scene.to_string_lossy(), self.options)?;
         let copy = |file: &str, to: &str| fs::copy(own.join(file), project.join(to));
         copy("control.rs", "src/control.rs")?;
         copy("controller.rs", "src/controller.rs")?;
@@ -134,23 +118,7 @@ fn of_the_notebook(folder: &Path) -> Result<Option<PathBuf>> {
 fn on_the_target(toolchain: &Toolchain, project: &Path) -> Result<()> {
     let mut command = toolchain.cargo("run", LIBRARIES);
     within(&mut command, toolchain, project);
-    compare(command, project)
-}
-
-/// What a command prints is a project's golden bits.
-///
-/// # Errors
-/// Where it fails or bits differ.
-pub fn compare(mut command: Command, project: &Path) -> Result<()> {
-    println!("$ {}", shown(&command));
-    let printed = output(&mut command)?;
-    let golden = fs::read_to_string(project.join("tests/golden.txt"))?;
-    let expected = format!("{golden}status: ok\n");
-    if printed != expected {
-        bail!("the target printed\n{printed}the golden bits are\n{expected}");
-    }
-    println!("{printed}");
-    Ok(())
+    cores::compare(command, project)
 }
 
 fn on_the_pc(toolchain: &Toolchain, project: &Path) -> Result<()> {

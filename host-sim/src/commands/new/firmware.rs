@@ -169,7 +169,8 @@ mod tests {
         let scene = "gyroscope".to_owned();
         let plant = PlantArguments { name: folder.into(), scene, dependencies, choice };
         for core in Core::value_variants() {
-            let name = folder.join(core.title());
+            let called = core.to_possible_value().unwrap();
+            let name = folder.join(called.get_name());
             let plant = PlantArguments { name, ..plant.clone() };
             let written = plant.name.clone();
             firmware(&FirmwareArguments { plant, core: *core }, &found).unwrap();
