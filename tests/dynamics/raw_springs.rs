@@ -32,7 +32,7 @@ fn springs(between_all: bool) -> Scene {
         )
         .unwrap();
         if between_all {
-            let place = [3, 0, number];
+            let place = [3, 0, number + 1];
             write!(
                 text,
                 "[[tsda]]\nname = \"between{number}\"\nbetween = [\"world\", \"ball\"]\n\
