@@ -22,7 +22,6 @@ mod planar_scenes;
 mod practical;
 mod precision;
 mod random_mechanisms;
-mod raw_springs;
 mod reference_generalized_alpha;
 mod reference_implicit;
 mod reference_solution;

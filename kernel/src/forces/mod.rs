@@ -17,7 +17,6 @@ mod in_line;
 mod inputs;
 mod lines;
 mod revolute;
-mod singles;
 mod springs;
 mod torsions;
 mod triples;
@@ -146,17 +145,7 @@ pub(crate) fn evaluate<P: Geometry, T: Terms<P>, D: Dampers>(
     if MayBe::<P, T>::UNIFORM && in_line {
         in_line::add::<P, T, D>(model, places, (bodies, rests), wrenches);
     } else if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
-        let mut groups = model.groups;
-        while let [group, others @ ..] = groups {
-            if singles::are_sought::<P, T>() {
-                let count = singles::run::<P, T, D>(groups);
-                if count > 1 {
-                    singles::add(model, places, (group, count), wrenches);
-                    groups = groups.get(count..).unwrap_or_default();
-                    continue;
-                }
-            }
-            groups = others;
+        for group in model.groups {
             if let Some(force_pair) = force_pair::<P, T, D>(model, places, (bodies, rests), group) {
                 apply(wrenches, group.a.row(), group.b.row(), &force_pair);
             }
