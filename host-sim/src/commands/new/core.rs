@@ -48,6 +48,10 @@ struct Values {
     /// The linker's scripts.
     scripts: &'static str,
     counter: &'static str,
+    /// Instructions of a tick, ticks of an instruction: SysTick at 25 MHz, of the AN505 at 20 MHz.
+    ticks: [&'static str; 2],
+    /// An instruction takes 2^shift ns of virtual time: one of RISC-V's counter.
+    shift: &'static str,
     /// Whether roots by its FPU need the kernel's feature `fpu`.
     fpu: bool,
     /// A chip of this core as probe-rs names it, the origins and sizes of its memories.
@@ -72,6 +76,8 @@ const CORTEX_M: Values = Values {
     regions: "",
     scripts: r#""-Tlink.x""#,
     counter: SYSTICK,
+    ticks: ["5 / 8", "1.6"],
+    shift: "6",
     fpu: false,
     chip: ["STM32F405RGTx", "FLASH at 0x08000000, 1024K", "RAM at 0x20000000, 128K"],
 };
@@ -107,6 +113,7 @@ impl Core {
                 machine: "mps2-an505",
                 runner: r#""qemu-system-arm", "-M", "mps2-an505""#,
                 memory: ["0x10000000", "0x38000000"],
+                ticks: ["25 / 32", "1.28"],
                 chip: ["STM32H563ZITx", "FLASH at 0x08000000, 2048K", "RAM at 0x20000000, 640K"],
                 ..CORTEX_M
             },
@@ -125,6 +132,7 @@ impl Core {
                           REGION_ALIAS(\"REGION_HEAP\", RAM);\nREGION_ALIAS(\"REGION_STACK\", RAM);",
                 scripts: r#""-Tmemory.x", "-Tlink.x""#,
                 counter: MINSTRET,
+                shift: "0",
                 fpu: true,
                 chip: ["CH32V303CBT6", "FLASH at 0x08000000, 128K", "RAM at 0x20000000, 32K"],
                 ..CORTEX_M
@@ -145,14 +153,10 @@ impl Core {
     /// Values of templates, with the kernel as a dependency.
     pub(super) fn placeholders(self, kernel: &str) -> Vec<(&'static str, String)> {
         let all = self.values();
-        // SysTick's ticks per instruction of 64 ns: 25 MHz, of the AN505 20 MHz.
-        let (ticks, of) =
-            if self == Self::CortexM33 { ("25 / 32", "1.28") } else { ("5 / 8", "1.6") };
-        let counter = [("instructions", ticks.to_owned()), ("ticks", of.to_owned())];
+        let [instructions, ticks] = all.ticks;
+        let counter = [("instructions", instructions.to_owned()), ("ticks", ticks.to_owned())];
         let fpu = if all.fpu { with_feature("fpu", kernel) } else { String::new() };
         let linker = all.target.to_uppercase().replace(['-', '.'], "_");
-        // One instruction is one nanosecond of RISC-V's counter, as of its own.
-        let shift = if self == Self::Rv32imafc { "0" } else { "6" };
         let [flash, ram] = all.memory;
         let [chip, chip_flash, chip_ram] = all.chip;
         let values = [
@@ -161,7 +165,7 @@ impl Core {
             ("machine", all.machine),
             ("package", all.package),
             ("runner", all.runner),
-            ("shift", shift),
+            ("shift", all.shift),
             ("flash", flash),
             ("ram", ram),
             ("flags", all.flags),
