@@ -19,7 +19,8 @@ fn local<P: Geometry>(model: &Bench<P>, body: BodyIndex, points: &[[f64; 3]]) ->
     points.iter().map(turn).collect()
 }
 
-/// Joins two bodies at a world point: by a revolute about z, or by a spherical joint.
+/// Joins two bodies at a world point: by a revolute about z, whose ring is out of its mid plane so that it is no point
+/// with an axis, or by a spherical joint.
 fn join<P: Geometry>(
     model: &mut Bench<P>,
     between: [BodyIndex; 2],
@@ -30,7 +31,7 @@ fn join<P: Geometry>(
     let shifted = |d: [f64; 3]| [at[0] + d[0], at[1] + d[1], at[2] + d[2]];
     let ring = |j: u32| {
         let angle = f64::from(j) * 2.0 * std::f64::consts::PI / 3.0;
-        shifted([0.2 * angle.cos(), 0.2 * angle.sin(), if revolute { 0.0 } else { 0.1 }])
+        shifted([0.2 * angle.cos(), 0.2 * angle.sin(), if revolute { 0.02 } else { 0.1 }])
     };
     let centres =
         if revolute { vec![shifted([0.0, 0.0, -0.2]), shifted([0.0, 0.0, 0.2])] } else { vec![at] };

@@ -1,8 +1,8 @@
 //! Lumped joints, a point and an axis: the tangent of many springs in closed form.
 //!
-//! `(group at t = 0, weights) => lumped joint`. The springs of most joints are isotropic for displacements of a centre,
-//! `Σ w·u·uᵀ = s·I`, and for rotations across an axis, `Σ w·(ρ×u)·(ρ×u)ᵀ = n·(I − e·eᵀ)`: the joint is then equivalent
-//! to this point and this axis in any pose. Any other group is assembled element by element.
+//! `(group at t = 0, weights) => lumped joint`. The springs of most joints are isotropic about an axis e, for displacements
+//! of a centre, `Σ w·u·uᵀ = s·I + t·e·eᵀ`, and for rotations across it, `Σ w·(ρ×u)·(ρ×u)ᵀ = n·(I − e·eᵀ)`: the joint is then
+//! equivalent to this point and this axis in any pose. Any other group is assembled element by element.
 
 use crate::freedoms::Freedoms as _;
 use crate::geometry::Geometry;
@@ -19,8 +19,10 @@ pub struct LumpedJoint<S: Space> {
     pub(super) arms: [S::Vector; 2],
     /// \[1\] unit axis in the first body's axes.
     pub(super) axis: S::Vector,
-    /// Weight of the point; 0 for a group that is assembled element by element.
+    /// Weight s of the point; 0 for a group that is assembled element by element.
     pub(super) point: S::Real,
+    /// Additional weight t of the point along the axis; 0 where its springs are alike in all directions.
+    pub(super) along: S::Real,
     /// \[m²\] weight of the axis; 0 without an axis.
     pub(super) across: S::Real,
 }
@@ -87,7 +89,7 @@ fn lumped_joint_of<P: Geometry, T: Terms<P>>(
     let inverse = elongation.reciprocal_or_zero();
     let axis = axis * inverse;
     let mut found = Row::<P>::EMPTY;
-    let mut sums = [zero; 2];
+    let mut sums = [zero; 3];
     for (i, element) in all().enumerate() {
         let element = element?;
         let d = element.deformation.displacement;
@@ -95,20 +97,29 @@ fn lumped_joint_of<P: Geometry, T: Terms<P>>(
         let moment = (offset(&element) * inverse).cross(u);
         let weight = weight_of(model, group, (i, element.index), matrix_weights)?;
         P::Space::row(u, moment).add_square(weight, &mut found);
-        sums = [sums[0] + weight * u.dot(u), sums[1] + weight * moment.dot(moment)];
+        let projection = u.dot(axis);
+        sums = [
+            sums[0] + weight * u.dot(u),
+            sums[1] + weight * moment.dot(moment),
+            sums[2] + weight * projection * projection,
+        ];
     }
-    let dimension = P::Real::from_i32(P::Vector::DIMENSION as i32);
-    let (point, across) = (sums[0] / dimension, sums[1] * P::Real::HALF);
-    let mut meant = Row::<P>::EMPTY;
-    P::Space::add_point(point, P::Vector::ZERO, &mut meant);
-    P::Space::add_across(across, axis, &mut meant);
-    if zero < point && Row::<P>::are_near(&found, &meant, P::Real::from_f64(ALIKE) * point) {
-        let [a, b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
-        let arms = [a.to_axes(centre[0]), b.to_axes(centre[1])];
-        Some(LumpedJoint { arms, axis: a.to_axes(axis), point, across: across * square })
-    } else {
-        None
-    }
+    let dimension = P::Vector::DIMENSION as i32;
+    let [mean, beside] = [dimension, dimension - 1].map(P::Real::from_i32);
+    let across = sums[1] * P::Real::HALF;
+    // Alike in all directions, or about the axis.
+    let other = (sums[0] - sums[2]) / beside;
+    let ways = [(sums[0] / mean, zero), (other, sums[2] - other)];
+    let (point, along) = ways.into_iter().find(|&(point, along)| {
+        let mut meant = Row::<P>::EMPTY;
+        P::Space::add_point(point, P::Vector::ZERO, &mut meant);
+        P::Space::row(axis, P::Moment::ZERO).add_square(along, &mut meant);
+        P::Space::add_across(across, axis, &mut meant);
+        zero < point && Row::<P>::are_near(&found, &meant, P::Real::from_f64(ALIKE) * point)
+    })?;
+    let [a, b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
+    let arms = [a.to_axes(centre[0]), b.to_axes(centre[1])];
+    Some(LumpedJoint { arms, axis: a.to_axes(axis), point, along, across: across * square })
 }
 
 type Row<P> = <<P as Geometry>::Space as Space>::Row;
@@ -156,6 +167,52 @@ mod tests {
         for lumped_joint in lumped_joints {
             assert!(lumped_joint.point > one && lumped_joint.across == zero, "{lumped_joint:?}");
         }
+    }
+
+    /// \[m, N/m\] span, ring and stiffness of a revolute about the z axis at the origin.
+    const REVOLUTE: [f64; 3] = [0.06, 0.03, 9e6];
+
+    const RING: ModelSpec = {
+        let [span, ring, stiffness] = REVOLUTE;
+        let free_length = 0.042_426_406_871_192_85;
+        let spring = Spring { stiffness, damping: 0.0, free_length };
+        let place = [0.3, -0.2, 0.0];
+        let half = span / 2.0;
+        let other = 0.866_025_403_784_438_6 * ring;
+        let [x, y] = [-place[0], -place[1]];
+        let tips = [
+            [x + ring, y, 0.0],
+            [x - ring / 2.0, y + other, 0.0],
+            [x - ring / 2.0, y - other, 0.0],
+        ];
+        ModelSpec::new().body(1.0, [0.01; 3], Start::at(place)).triples(
+            [BodyIndex::WORLD, BodyIndex(0)],
+            &[[0.0, 0.0, -half], [0.0, 0.0, half]],
+            &tips,
+            spring,
+        )
+    };
+
+    crate::model!(static WITH_RING: F64 = RING);
+
+    /// A revolute of any ring is a point and an axis, with the stiffnesses of docs/joints.md.
+    #[test]
+    fn a_revolute_of_another_ring_is_stiffer_along_its_axis() {
+        let state = State::initial(&WITH_RING);
+        let mut frames = WITH_RING.per_body(Default::default());
+        place_bodies::<crate::F64>(state.bodies.as_ref(), frames.as_mut());
+        let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+        let matrix_weights = MatrixWeights { mass: 1.0, damping: 1.0, stiffness: 1.0 };
+        let mut lumped_joints = [LumpedJoint::default()];
+        find(&WITH_RING.view(), places, matrix_weights, &mut lumped_joints);
+        let [LumpedJoint { axis, point, along, across, .. }] = lumped_joints;
+        let [span, ring, k] = REVOLUTE;
+        let square = ring * ring + span * span / 4.0;
+        let near = |found: f64, meant: f64| (found / meant - 1.0).abs() < 1e-9;
+        assert!(near(axis.z.abs(), 1.0), "{axis:?}");
+        assert!(near(point, k * 3.0 * ring * ring / square), "{point}");
+        assert!(near(point + along, k * 3.0 * span * span / (2.0 * square)), "{along}");
+        assert!(near(across, k * 3.0 * (span * ring).powi(2) / (4.0 * square)), "{across}");
     }
 
     /// Rounding differences between the points of a spherical joint do not make an axis, at any position.
