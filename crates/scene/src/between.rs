@@ -21,7 +21,7 @@ impl Kind for Between<'_> {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Pair, SceneError> {
-        let entries = value.entries(2, &self.expected())?;
+        let entries = value.entries(2, || self.expected())?;
         let mut names = [String::new(), String::new()];
         let mut bodies = [BodyIndex::WORLD; 2];
         for ((name, body), entry) in names.iter_mut().zip(&mut bodies).zip(&entries) {

@@ -77,32 +77,36 @@ pub(crate) fn of_body(name: &str) -> impl Iterator<Item = String> + use<'_> {
 }
 
 /// Used columns and their owners.
-pub(crate) struct Taken(BTreeMap<String, String>);
+pub(crate) struct Taken {
+    bodies: BTreeSet<String>,
+    readouts: BTreeMap<String, String>,
+}
 
 impl Taken {
     /// The columns of time, bodies and energies.
     pub(crate) fn new(bodies: &[String]) -> Self {
-        let mut taken = BTreeMap::from([(TIME_COLUMN.to_owned(), "the time".to_owned())]);
-        for body in bodies {
-            taken.extend(of_body(body).map(|column| (column, format!("the body `{body}`"))));
-        }
-        let energies = ENERGY_COLUMNS.map(|column| (column.to_owned(), "the energy".to_owned()));
-        taken.extend(energies);
-        Self(taken)
+        Self { bodies: bodies.iter().cloned().collect(), readouts: BTreeMap::new() }
     }
 
     /// Reserves a column for `owner`.
     ///
     /// # Errors The present owner, if it is used.
-    pub(crate) fn take(&mut self, column: String, owner: &str) -> Result<(), &str> {
-        use std::collections::btree_map::Entry;
-        match self.0.entry(column) {
-            Entry::Vacant(free) => {
-                free.insert(owner.to_owned());
-                Ok(())
-            }
-            Entry::Occupied(other) => Err(other.into_mut()),
+    pub(crate) fn take(&mut self, column: String, owner: &str) -> Result<(), String> {
+        if column == TIME_COLUMN {
+            return Err("the time".into());
         }
+        if ENERGY_COLUMNS.contains(&column.as_str()) {
+            return Err("the energy".into());
+        }
+        let body = BODY_COLUMNS.iter().find_map(|end| self.bodies.get(column.strip_suffix(end)?));
+        if let Some(body) = body {
+            return Err(format!("the body `{body}`"));
+        }
+        if let Some(other) = self.readouts.get(&column) {
+            return Err(other.clone());
+        }
+        self.readouts.insert(column, owner.to_owned());
+        Ok(())
     }
 }
 

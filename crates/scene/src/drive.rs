@@ -92,12 +92,12 @@ pub(crate) fn range(
     unit: &'static str,
 ) -> Result<[f64; 2], SceneError> {
     let Some(value) = table.value("range") else { return Ok([-f64::INFINITY, f64::INFINITY]) };
-    let expected = format!("[lower, upper] in {unit}, with lower ≤ upper");
-    let entries = value.entries(2, &expected)?;
+    let expected = || format!("[lower, upper] in {unit}, with lower ≤ upper");
+    let entries = value.entries(2, expected)?;
     let [least, most] = [&entries[0], &entries[1]].map(|entry| Number::any(unit).read(entry));
     let (least, most) = (least?, most?);
     if least > most {
-        return Err(value.refuse("has its bounds in the wrong order", &expected));
+        return Err(value.refuse("has its bounds in the wrong order", &expected()));
     }
     let Drive::Caller(start) = drive else {
         let help = "remove `range`: it limits the values that a caller sets, not those that the scene drives";
@@ -225,10 +225,10 @@ impl Kind for Knots {
     fn read(&self, value: &Value<'_>) -> Result<Vec<[f64; 2]>, SceneError> {
         let Argument { unit: over, name } = self.over;
         let mut knots: Vec<[f64; 2]> = Vec::new();
-        for entry in value.array(&self.expected())? {
+        for entry in value.array(|| self.expected())? {
             let expected =
-                format!("an array of 2: a {name} in {over} and a value in {}", self.unit);
-            let pair = entry.entries(2, &expected)?;
+                || format!("an array of 2: a {name} in {over} and a value in {}", self.unit);
+            let pair = entry.entries(2, expected)?;
             let argument = if over == "s" { Seconds::any() } else { Number::any(over) };
             let knot = [argument.read(&pair[0])?, Number::any(self.unit).read(&pair[1])?];
             if let Some([last, before]) = knots.last() {

@@ -23,19 +23,19 @@ pub(crate) struct FileLines {
 impl FileLines {
     /// The lines of all tables of the scene.
     pub(crate) fn of(root: &Table<'_>) -> Result<Self, SceneError> {
-        let tsdas = root.lines("tsda")?;
+        let tsdas = root.lines("tsda");
         let winches = winches(root)?;
         Ok(Self {
-            bodies: root.lines("body")?,
-            joints: root.lines("joint")?,
+            bodies: root.lines("body"),
+            joints: root.lines("joint"),
             raw_tsdas: (0..tsdas.len()).filter(|row| !winches.contains_key(row)).collect(),
             tsdas,
-            points_on_lines: root.lines("point_on_line")?,
-            torsion_springs: root.lines("torsion_spring")?,
-            interactions: root.lines("interaction")?,
-            couplings: root.lines("coupling")?,
-            inputs: root.lines("input")?,
-            readouts: root.lines("readout")?,
+            points_on_lines: root.lines("point_on_line"),
+            torsion_springs: root.lines("torsion_spring"),
+            interactions: root.lines("interaction"),
+            couplings: root.lines("coupling"),
+            inputs: root.lines("input"),
+            readouts: root.lines("readout"),
         })
     }
 }

@@ -311,7 +311,7 @@ impl Kind for Targets<'_, '_> {
         if value.get().as_str().is_some() {
             return Ok(vec![name.read(value)?]);
         }
-        let entries = value.array(&self.expected())?;
+        let entries = value.array(|| self.expected())?;
         if entries.is_empty() {
             return Err(value.refuse("is empty", &self.expected()));
         }

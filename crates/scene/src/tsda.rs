@@ -108,7 +108,7 @@ impl Kind for TwoPoints<'_> {
     fn read(&self, value: &Value<'_>) -> Result<[Vec3<f64>; 2], SceneError> {
         let Self { assembly, pair } = *self;
         let mut points = [Vec3::ZERO; 2];
-        let entries = value.entries(2, &self.expected())?;
+        let entries = value.entries(2, || self.expected())?;
         for ((point, entry), body) in points.iter_mut().zip(entries).zip([pair.a, pair.b]) {
             *point = PlaceOf { assembly, body }.read(&entry)?;
         }

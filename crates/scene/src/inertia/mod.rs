@@ -81,9 +81,11 @@ impl Kind for AnyInertia {
 /// Reads a tensor and diagonalises it.
 fn tensor(value: &Value<'_>, expected: &str) -> Result<Inertia, SceneError> {
     let mut rows = [[0.0; 3]; 3];
-    for (i, (row, entry)) in rows.iter_mut().zip(value.entries(3, expected)?).enumerate() {
+    for (i, (row, entry)) in
+        rows.iter_mut().zip(value.entries(3, || expected.to_owned())?).enumerate()
+    {
         *row = Numbers(Number::any("kg·m²")).read(&entry)?;
-        let moment = entry.entries(3, expected)?;
+        let moment = entry.entries(3, || expected.to_owned())?;
         Number::positive("kg·m²").read(&moment[i])?;
     }
     const NAMES: [&str; 3] = ["x", "y", "z"];

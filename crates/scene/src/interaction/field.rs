@@ -250,7 +250,7 @@ impl Kind for TwoPlaces<'_> {
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
         let Self { assembly, pair } = *self;
         let mut points = [[0.0; 3]; 2];
-        let entries = value.entries(2, &self.expected())?;
+        let entries = value.entries(2, || self.expected())?;
         for ((point, entry), body) in points.iter_mut().zip(entries).zip([pair.a, pair.b]) {
             *point = PlaceOf { assembly, body }.read(&entry)?.to_f64();
         }
@@ -273,7 +273,7 @@ impl Kind for Knots {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
-        let entries = value.array(&self.expected())?;
+        let entries = value.array(|| self.expected())?;
         if entries.len() < 2 || entries.len() > self.most {
             let problem = format!("has {} knots", entries.len());
             return Err(value.refuse(&problem, &self.expected()));
@@ -281,7 +281,7 @@ impl Kind for Knots {
         let mut knots: Vec<[f64; 2]> = Vec::new();
         for entry in entries {
             let [x, y] = [0, 1].map(|row| Number::any(self.units[row]));
-            let pair = entry.entries(2, &self.expected())?;
+            let pair = entry.entries(2, || self.expected())?;
             let knot = [x.read(&pair[0])?, y.read(&pair[1])?];
             if knots.last().is_some_and(|last| last[0] >= knot[0]) {
                 return Err(
@@ -311,10 +311,10 @@ impl Kind for Definite {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Ldl<f64>, SceneError> {
-        let rows = value.entries(6, &self.expected())?;
+        let rows = value.entries(6, || self.expected())?;
         let mut matrix = [[0.0; 6]; 6];
         for (i, (row, to)) in rows.iter().zip(&mut matrix).enumerate() {
-            for (j, (entry, to)) in row.entries(6, &self.expected())?.iter().zip(to).enumerate() {
+            for (j, (entry, to)) in row.entries(6, || self.expected())?.iter().zip(to).enumerate() {
                 *to = Number::any(self.units[2 * (i / 3) + j / 3]).read(entry)?;
             }
         }

@@ -125,7 +125,7 @@ impl<'j> Kind for Of<'j, '_> {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Self::Output, SceneError> {
-        let entries = value.array(&self.expected())?;
+        let entries = value.array(|| self.expected())?;
         if !(1..=MAX_TERMS).contains(&entries.len()) {
             let problem = format!("has {} coordinates", entries.len());
             return Err(value.refuse(&problem, &self.expected()));

@@ -260,6 +260,6 @@ impl Kind for Steps {
 fn fixed(value: &Value<'_>, assembly: &Assembly) -> Result<Vec<usize>, SceneError> {
     let name = BodyName { assembly, world: false };
     let entries =
-        value.array(&format!("an array of names of bodies; `{WORLD}` is always fixed"))?;
+        value.array(|| format!("an array of names of bodies; `{WORLD}` is always fixed"))?;
     entries.iter().map(|entry| Ok(name.read(entry)?.1.row())).collect()
 }

@@ -138,7 +138,7 @@ impl Kind for Axes<'_> {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<[Vec3<f64>; 2], SceneError> {
-        let entries = value.entries(2, &self.expected())?;
+        let entries = value.entries(2, || self.expected())?;
         Ok([Heading(self.0).read(&entries[0])?, Heading(self.0).read(&entries[1])?])
     }
 }

@@ -117,7 +117,7 @@ fn from_others(table: &Table<'_>, places: &Places) -> Result<PreciseVector, Scen
 
 /// The two points of `from`.
 fn pair(value: &Value<'_>, places: &Places) -> Result<[PreciseVector; 2], SceneError> {
-    let entries = value.entries(2, "a point, or an array of two points")?;
+    let entries = value.entries(2, || "a point, or an array of two points".into())?;
     let place = |entry: &Value<'_>| PrecisePlace(places).read(entry);
     Ok([place(&entries[0])?, place(&entries[1])?])
 }
@@ -211,7 +211,7 @@ fn of_points(
     value: &Value<'_>,
     places: &Places,
 ) -> Result<(PreciseVector, [PreciseVector; 3]), SceneError> {
-    let entries = value.entries(3, "the name of a body, or an array of three points")?;
+    let entries = value.entries(3, || "the name of a body, or an array of three points".into())?;
     let place = |entry: &Value<'_>| PrecisePlace(places).read(entry);
     let [origin, x, y] = [place(&entries[0])?, place(&entries[1])?, place(&entries[2])?];
     let axes = (x - origin).unit().and_then(|x| x.normals(y - origin).map(|[y, z]| [x, y, z]));

@@ -23,12 +23,12 @@ impl Kind for Heading<'_> {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Vec3<f64>, SceneError> {
-        let entries = value.array(&self.expected())?;
+        let entries = value.array(|| self.expected())?;
         // Three texts are components with units or names of parameters.
         if entries.len() == 3 || !entries.iter().any(|entry| entry.get().is_str()) {
             return Direction.read(value);
         }
-        let entries = value.entries(2, &self.expected())?;
+        let entries = value.entries(2, || self.expected())?;
         let (from, to) = (&entries[0], &entries[1]);
         let [a, b] = [Place(self.0).read(from)?, Place(self.0).read(to)?];
         let heading = unit(b - a)

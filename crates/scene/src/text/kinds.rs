@@ -18,10 +18,9 @@ pub(crate) struct Direction;
 impl Direction {
     /// Its three numbers as written.
     pub(crate) fn numbers(value: &Value<'_>) -> Result<[f64; 3], SceneError> {
-        let expected = Self.expected();
         let mut vector = [0.0; 3];
         let mut common = None;
-        for (component, entry) in vector.iter_mut().zip(value.entries(3, &expected)?) {
+        for (component, entry) in vector.iter_mut().zip(value.entries(3, || Self.expected())?) {
             let Quantity { value: number, dimension } = Measure.read(&entry)?;
             *component = number;
             // A 0 fits any dimension.

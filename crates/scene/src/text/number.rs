@@ -72,7 +72,7 @@ impl Kind for Number {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<f64, SceneError> {
-        let number = read(value, &self.expected())?;
+        let number = read(value, || self.expected())?;
         let is_text = value.get().is_str();
         if is_text && !number.dimension.is_none() {
             let own = dimension_of(self.unit);
@@ -91,7 +91,7 @@ impl Kind for Number {
             return Err(value.refuse(&problem, &self.expected()));
         }
         if let Some(angles) = value.source.angles.filter(|_| is_plain && self.unit == "rad") {
-            let names = [value.key.as_str(), &value.owner];
+            let names = [&value.key.to_string(), &*value.owner];
             angles.note(number, names, value.source.text, value.span().start);
         }
         if let Some(log) = value.source.log {
@@ -140,7 +140,7 @@ impl Kind for Measure {
     }
 
     fn read(&self, value: &Value<'_>) -> Result<Quantity, SceneError> {
-        let quantity = read(value, &self.expected())?;
+        let quantity = read(value, || self.expected())?;
         if !quantity.value.is_finite() {
             let problem = format!("is {}", shortened(value.written()));
             return Err(value.refuse(&problem, &self.expected()));
@@ -150,12 +150,12 @@ impl Kind for Measure {
 }
 
 /// The value of a number or a text; infinite where a number is too large.
-fn read(value: &Value<'_>, expected: &str) -> Result<Quantity, SceneError> {
+fn read(value: &Value<'_>, expected: impl Fn() -> String) -> Result<Quantity, SceneError> {
     if let Some(text) = value.get().as_str() {
         return within(text, value.source.scope)
-            .map_err(|fault| value.refuse_within(text, &fault, expected));
+            .map_err(|fault| value.refuse_within(text, &fault, &expected()));
     }
-    let value = number(value).ok_or_else(|| value.wrong_type(expected))?;
+    let value = number(value).ok_or_else(|| value.wrong_type(&expected()))?;
     Ok(Quantity { value, dimension: Dimension::default() })
 }
 
@@ -184,7 +184,7 @@ impl<const N: usize> Kind for Numbers<N> {
 
     fn read(&self, value: &Value<'_>) -> Result<[f64; N], SceneError> {
         let mut numbers = [0.0; N];
-        for (number, entry) in numbers.iter_mut().zip(value.entries(N, &self.expected())?) {
+        for (number, entry) in numbers.iter_mut().zip(value.entries(N, || self.expected())?) {
             *number = self.0.read(&entry)?;
         }
         Ok(numbers)

@@ -5,6 +5,7 @@
 
 use std::cell::RefCell;
 use std::ops::Range;
+use std::rc::Rc;
 
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -13,7 +14,7 @@ use crate::error::{SceneError, Source};
 use crate::nearest::nearest;
 use crate::shortened::shortened;
 use crate::text::name::{check_name, is_name};
-use crate::text::value::{Kind, Value};
+use crate::text::value::{Key, Kind, Value};
 
 /// A table with its name in messages.
 pub(crate) struct Table<'t> {
@@ -21,7 +22,7 @@ pub(crate) struct Table<'t> {
     entries: &'t DeTable<'t>,
     span: Range<usize>,
     /// ``body `crank` ``, or `body 1` where it has no name.
-    label: String,
+    label: Rc<str>,
     /// The defaults, used for keys that it does not give; earlier ones take precedence.
     defaults: Vec<&'t DeTable<'t>>,
     /// The allowed keys, once known; defaults with other keys are ignored.
@@ -47,7 +48,7 @@ const ALTERNATIVES: &[(&str, &[&str])] = &[
 
 /// The table that is the whole scene.
 pub(crate) fn root<'t>(source: Source<'t>, document: &'t DeTable<'t>) -> Table<'t> {
-    Table::new(source, document, 0..0, "the scene".into())
+    Table::new(source, document, 0..0, "the scene")
 }
 
 impl<'t> Value<'t> {
@@ -56,7 +57,7 @@ impl<'t> Value<'t> {
         match self.get() {
             DeValue::Table(entries) => {
                 let label = format!("{} of {}", self.key, self.owner);
-                Ok(Table::new(self.source, entries, self.span(), label))
+                Ok(Table::new(self.source, entries, self.span(), &label))
             }
             _ => Err(self.wrong_type(expected)),
         }
@@ -65,9 +66,7 @@ impl<'t> Value<'t> {
     /// A nested table with a custom name in messages.
     pub(crate) fn labelled(&self, expected: &str, label: &str) -> Result<Table<'t>, SceneError> {
         match self.get() {
-            DeValue::Table(entries) => {
-                Ok(Table::new(self.source, entries, self.span(), label.into()))
-            }
+            DeValue::Table(entries) => Ok(Table::new(self.source, entries, self.span(), label)),
             _ => Err(self.wrong_type(expected)),
         }
     }
@@ -78,15 +77,16 @@ impl<'t> Table<'t> {
         source: Source<'t>,
         entries: &'t DeTable<'t>,
         span: Range<usize>,
-        label: String,
+        label: &str,
     ) -> Self {
+        let label = label.into();
         let (defaults, allowed) = (Vec::new(), RefCell::new(None));
         Self { source, entries, span, label, defaults, allowed }
     }
 
     /// Gives it another name in messages.
     pub(crate) fn called(self, label: &str) -> Self {
-        Self { label: label.to_owned(), ..self }
+        Self { label: label.into(), ..self }
     }
 
     /// Adds the defaults of its kind from `[defaults.kind]` of the scene.
@@ -226,10 +226,10 @@ impl<'t> Table<'t> {
 
     /// The value of a key, if present.
     pub(crate) fn value(&self, key: &str) -> Option<Value<'t>> {
-        self.entry(key).map(|(_, entry)| Value {
+        self.entry(key).map(|(key, entry)| Value {
             source: self.source,
             entry,
-            key: format!("`{key}`"),
+            key: Key::Named(key.get_ref()),
             owner: self.label.clone(),
         })
     }
@@ -280,14 +280,14 @@ impl<'t> Table<'t> {
     /// The tables of `[[key]]`, labelled by their names or `key 1` and so on; empty where the key is absent.
     pub(crate) fn list(&self, key: &str) -> Result<Vec<Table<'t>>, SceneError> {
         let Some(value) = self.value(key) else { return Ok(Vec::new()) };
-        let expected = format!("an array of tables, each written as [[{key}]]");
+        let expected = || format!("an array of tables, each written as [[{key}]]");
         if matches!(value.get(), DeValue::Table(_)) && value.written().starts_with('[') {
             let problem = format!("is written as [{key}], in single brackets");
             let help = format!("write each {key} as [[{key}]], in double brackets");
             return Err(value.refuse_with(&problem, help));
         }
         let mut tables = Vec::new();
-        for (i, entry) in value.array(&expected)?.iter().enumerate() {
+        for (i, entry) in value.array(expected)?.iter().enumerate() {
             let DeValue::Table(entries) = entry.get() else {
                 return Err(entry.wrong_type(&format!("a table, written as [[{key}]]")));
             };
@@ -295,7 +295,7 @@ impl<'t> Table<'t> {
                 Some(name) if is_name(name) => format!("{key} `{}`", shortened(name)),
                 _ => format!("{key} {}", i + 1),
             };
-            let table = Table::new(self.source, entries, entry.span(), label);
+            let table = Table::new(self.source, entries, entry.span(), &label);
             tables.push(table.with_defaults(self, key)?);
         }
         Ok(tables)
@@ -312,25 +312,25 @@ impl<'t> Table<'t> {
                 let problem = format!("{} has a name that {}", self.label, fault.problem);
                 return Err(self.source.refuse(key.span(), problem, fault.help));
             }
-            let key = format!("`{}`", shortened(name));
-            let owner = self.label.clone();
+            let (key, owner) = (Key::Named(name), self.label.clone());
             named.push((name.to_owned(), Value { source: self.source, entry, key, owner }));
         }
         Ok(named)
     }
 
-    /// The lines, from 1, on which the tables of `[[key]]` begin.
-    pub(crate) fn lines(&self, key: &str) -> Result<Vec<usize>, SceneError> {
+    /// The lines, from 1, on which the tables of [`Self::list`] begin.
+    pub(crate) fn lines(&self, key: &str) -> Vec<usize> {
         // One pass over the text: a scene may have thousands of tables.
         let (mut line, mut from) = (1, 0);
         let mut lines = Vec::new();
-        for table in self.list(key)? {
-            let start = table.start();
+        let tables = self.entries.get(key).and_then(|value| value.get_ref().as_array());
+        for table in tables.into_iter().flatten() {
+            let start = table.span().start;
             line += self.breaks(from..start);
             from = start.max(from);
             lines.push(line);
         }
-        Ok(lines)
+        lines
     }
 
     /// The line breaks between two bytes of the text.

@@ -1,12 +1,15 @@
 //! One value of a table, with its position and a name for messages.
 
+use std::fmt;
 use std::ops::Range;
+use std::rc::Rc;
 
 use toml::Spanned;
 use toml::de::DeValue;
 
 use crate::error::{SceneError, Source};
 use crate::quantity::Fault;
+use crate::shortened::shortened;
 
 /// A kind of value.
 pub(crate) trait Kind {
@@ -22,10 +25,28 @@ pub(crate) trait Kind {
 pub(crate) struct Value<'t> {
     pub(crate) source: Source<'t>,
     pub(crate) entry: &'t Spanned<DeValue<'t>>,
-    /// The key, with an index for an entry of an array: `` `points`[1] ``.
-    pub(crate) key: String,
+    /// The key.
+    pub(crate) key: Key<'t>,
     /// Its owner: ``body `crank` ``.
-    pub(crate) owner: String,
+    pub(crate) owner: Rc<str>,
+}
+
+/// A key in messages, with an index for an entry of an array: `` `points`[1] ``.
+#[derive(Clone)]
+pub(crate) enum Key<'t> {
+    /// A key of a table.
+    Named(&'t str),
+    /// An entry of its array.
+    Entry(Rc<Self>, usize),
+}
+
+impl fmt::Display for Key<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Named(name) => write!(f, "`{}`", shortened(name)),
+            Self::Entry(array, i) => write!(f, "{array}[{i}]"),
+        }
+    }
 }
 
 impl<'t> Value<'t> {
@@ -80,25 +101,27 @@ impl<'t> Value<'t> {
     pub(crate) fn entries(
         &self,
         length: usize,
-        expected: &str,
+        expected: impl Fn() -> String,
     ) -> Result<Vec<Value<'t>>, SceneError> {
-        let entries = self.array(expected)?;
+        let entries = self.array(&expected)?;
         if entries.len() != length {
             let plural = if entries.len() == 1 { "entry" } else { "entries" };
-            return Err(self.refuse(&format!("has {} {plural}", entries.len()), expected));
+            return Err(self.refuse(&format!("has {} {plural}", entries.len()), &expected()));
         }
         Ok(entries)
     }
 
     /// The entries of an array.
-    pub(crate) fn array(&self, expected: &str) -> Result<Vec<Value<'t>>, SceneError> {
-        let DeValue::Array(array) = self.get() else {
-            return Err(self.wrong_type(expected));
-        };
+    pub(crate) fn array(
+        &self,
+        expected: impl Fn() -> String,
+    ) -> Result<Vec<Value<'t>>, SceneError> {
+        let array = self.get().as_array().ok_or_else(|| self.wrong_type(&expected()))?;
+        let key = Rc::new(self.key.clone());
         let entry = |(i, entry)| Value {
             source: self.source,
             entry,
-            key: format!("{}[{i}]", self.key),
+            key: Key::Entry(key.clone(), i),
             owner: self.owner.clone(),
         };
         Ok(array.iter().enumerate().map(entry).collect())

@@ -263,7 +263,7 @@ impl<'w, 't> Writer<'w, 't> {
                 Err(_) => basic_string(text),
             },
             DeValue::Array(_) => {
-                let entries = value.array("")?;
+                let entries = value.array(String::new)?;
                 let entries: Result<Vec<_>, _> =
                     entries.iter().map(|entry| self.value(name, entry)).collect();
                 format!("[{}]", entries?.join(", "))

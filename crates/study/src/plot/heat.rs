@@ -69,6 +69,8 @@ pub fn svg(heat: &Heat<'_>) -> String {
         text,
         "<path d=\"M0 6L6 0\" stroke=\"{FAILED}\" stroke-width=\"0.8\"/></pattern></defs>"
     );
+    let along_x: Vec<String> = (0..along).map(|column| x.said(column as f64)).collect();
+    let along_y: Vec<String> = (0..above).map(|row| y.said(row as f64)).collect();
     let (wide, tall) = ((right - left) / along.max(1) as f64, (bottom - top) / above.max(1) as f64);
     for (at, value) in values.iter().enumerate().take(along * above) {
         let (column, row) = (at % along, at / along);
@@ -90,12 +92,7 @@ pub fn svg(heat: &Heat<'_>) -> String {
                     let figure = significant(value, 5).replace('-', "−");
                     format!("{quantity} = {figure} {unit}")
                 });
-                let said = format!(
-                    "{}\n{}\n{}",
-                    x.said(column as f64),
-                    y.said(row as f64),
-                    value.trim_end()
-                );
+                let said = format!("{}\n{}\n{}", along_x[column], along_y[row], value.trim_end());
                 let _ = writeln!(text, "><title>{}</title></rect>", escape(&said));
             }
             false => text.push_str("/>\n"),
