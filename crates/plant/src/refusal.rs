@@ -2,7 +2,7 @@
 //!
 //! `(scene, method, step) => error with remedy`.
 
-use dbd_scene::{Misfit, UnfitInput};
+use dbd_scene::{Elimination, Misfit, UnfitInput};
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -36,8 +36,11 @@ pub enum PlantError {
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy))]
     Extent(#[from] Misfit),
-    /// The scheme has a matrix, and the bodies of the scene form too many pairs.
-    #[error("the iteration matrix has more than 65535 pairs of bodies")]
+    /// The scheme has a matrix, which the connections of the bodies fill too far.
+    #[error(
+        "the iteration matrix takes more than {} products of blocks",
+        Elimination::MAX_PRODUCTS
+    )]
     #[diagnostic(help("use a scheme without a matrix: --scheme leapfrog"))]
     Pairs,
     /// The joints are too stiff for this precision and step.

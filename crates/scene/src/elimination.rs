@@ -4,7 +4,7 @@
 //! eliminated next, the first of equal ones, and its neighbours become connected (Tinney & Walker 1967): chains and
 //! loops of mechanisms have almost no fill-in.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::ops::Deref;
 
 use dbd_kernel::laws::Laws;
@@ -20,14 +20,19 @@ pub struct Elimination {
     /// [`Plan::pairs`].
     pub pairs: Vec<[u16; 2]>,
     /// [`Plan::targets`].
-    pub targets: Vec<u16>,
+    pub targets: Vec<u32>,
     /// [`Plan::slots`].
-    pub slots: Vec<u16>,
+    pub slots: Vec<u32>,
 }
 
 impl Elimination {
+    /// The largest number of [`Plan::targets`]: a factorisation takes as many products of blocks, each some 50 ns on a
+    /// PC.
+    pub const MAX_PRODUCTS: usize = 1 << 24;
+
     /// The plan of a model with this number of bodies and stiff elements between these ends: groups, then torsion
-    /// springs, then laws. Ends that are not bodies are the ground. `None` if the pairs exceed the index range.
+    /// springs, then laws. Ends that are not bodies are the ground. `None` if it takes more than
+    /// [`Self::MAX_PRODUCTS`].
     #[must_use]
     pub fn new(bodies: usize, ends: &[[u16; 2]]) -> Option<Self> {
         Self::with_cliques(bodies, ends, &[])
@@ -50,9 +55,13 @@ impl Elimination {
         let mut left: BTreeSet<(usize, u16)> =
             (0..).zip(&neighbours).map(|(body, near)| (near.len(), body)).collect();
         let mut plan = Self::default();
-        let mut columns = Vec::with_capacity(bodies);
+        let (mut columns, mut work) = (Vec::with_capacity(bodies), 0);
         while let Some((_, next)) = left.pop_first() {
             let joined = std::mem::take(&mut neighbours[usize::from(next)]);
+            work += joined.len() * joined.len().saturating_sub(1) / 2;
+            if work > Self::MAX_PRODUCTS {
+                return None;
+            }
             for &a in &joined {
                 let near = &mut neighbours[usize::from(a)];
                 left.remove(&(near.len(), a));
@@ -63,29 +72,34 @@ impl Elimination {
             plan.order.push([next, joined.len() as u16]);
             columns.push(joined);
         }
-        let places: BTreeMap<u16, usize> =
-            plan.order.iter().map(|[body, _]| *body).zip(0..).collect();
-        let mut rows = BTreeMap::new();
+        let mut places = vec![0; bodies];
+        for (place, [body, _]) in plan.order.iter().enumerate() {
+            places[usize::from(*body)] = place;
+        }
+        let place = |body: u16| places[usize::from(body)];
+        let mut starts = vec![0; bodies];
         for ([first, _], joined) in plan.order.iter().zip(&columns) {
             let mut joined: Vec<u16> = joined.iter().copied().collect();
-            joined.sort_by_key(|body| places[body]);
-            for second in joined {
-                rows.insert([*first, second], u16::try_from(plan.pairs.len()).ok()?);
-                plan.pairs.push([*first, second]);
-            }
+            joined.sort_by_key(|body| place(*body));
+            starts[usize::from(*first)] = plan.pairs.len();
+            plan.pairs.extend(joined.into_iter().map(|second| [*first, second]));
         }
+        let slot = |a: u16, b: u16| {
+            let [first, second] = if place(a) < place(b) { [a, b] } else { [b, a] };
+            let start = starts[usize::from(first)];
+            let column = &plan.pairs[start..start + columns[place(first)].len()];
+            let found = column.binary_search_by_key(&place(second), |[_, body]| place(*body));
+            found.map_or(Plan::GROUND, |row| (start + row) as u32)
+        };
         for column in plan.pairs.chunk_by(|a, b| a[0] == b[0]) {
             for (i, [_, second]) in column.iter().enumerate() {
-                let first = column[..i].iter().map(|[_, first]| rows[&[*first, *second]]);
-                plan.targets.extend(first);
+                plan.targets.extend(column[..i].iter().map(|[_, first]| slot(*first, *second)));
             }
         }
-        plan.slots = ends
-            .iter()
-            .map(|&[a, b]| rows.get(&[a, b]).or(rows.get(&[b, a])).copied().unwrap_or(Plan::GROUND))
-            .collect();
-        // The last number is that of the ground.
-        (plan.pairs.len() <= usize::from(Plan::GROUND)).then_some(plan)
+        let both =
+            |&[a, b]: &[u16; 2]| if is_body(a) && is_body(b) { slot(a, b) } else { Plan::GROUND };
+        plan.slots = ends.iter().map(both).collect();
+        Some(plan)
     }
 
     /// The plan of a model by its bodies, groups, torsion springs and laws.
@@ -132,7 +146,7 @@ pub struct Eliminated<H> {
 }
 
 impl<H: Deref<Target: ModelOwner + Sized>> Eliminated<H> {
-    /// The model that `model` points to with its plan; `None` if the pairs of bodies exceed the index range.
+    /// The model that `model` points to with its plan; `None` if the plan is too large.
     #[must_use]
     pub fn new(model: H) -> Option<Self> {
         let view = model.view();
@@ -248,5 +262,18 @@ mod tests {
         let plan = Elimination::new(16, &grid).unwrap();
         assert!(plan.plan().fits(16, grid.iter().copied()), "{plan:?}");
         assert!(plan.filled() > 5, "{}", plan.filled());
+    }
+
+    #[test]
+    fn a_net_of_ten_thousand_has_a_plan_and_a_dense_one_has_none() {
+        let at = |x: u16, y: u16| 100 * y + x;
+        let across = (0..100).flat_map(|y| (0..99).map(move |x| [at(x, y), at(x + 1, y)]));
+        let along = (0..99).flat_map(|y| (0..100).map(move |x| [at(x, y), at(x, y + 1)]));
+        let net: Vec<[u16; 2]> = across.chain(along).collect();
+        let plan = Elimination::new(10_000, &net).unwrap();
+        assert!(plan.pairs.len() > 65_535, "{}", plan.pairs.len());
+        assert!(plan.plan().fits(10_000, net.into_iter()));
+        let all = (0..500).flat_map(|a| (0..a).map(move |b| [a, b])).collect::<Vec<_>>();
+        assert_eq!(Elimination::new(500, &all), None);
     }
 }

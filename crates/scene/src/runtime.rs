@@ -90,8 +90,7 @@ impl<P: Geometry> SceneModel<P> {
         }
     }
 
-    /// The same model with an elimination order for an implicit scheme; unchanged where the pairs of bodies exceed the
-    /// range of an index.
+    /// The same model with an elimination order for an implicit scheme; unchanged where the plan is too large.
     #[must_use]
     pub fn planned(self) -> Self {
         let plan = Elimination::of(self.bodies.len(), &self.groups, &self.torsions, &self.laws);

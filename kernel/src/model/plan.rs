@@ -14,14 +14,14 @@ pub struct Plan<'m> {
     pub pairs: &'m [[u16; 2]],
     /// For each body in order, for each two of its pairs that are eliminated with it, (second, first), (third, first),
     /// (third, second) …: the pair that their product changes.
-    pub targets: &'m [u16],
+    pub targets: &'m [u32],
     /// For each group and then each torsion spring the slot of its bodies' pair; [`Plan::GROUND`] with the ground.
-    pub slots: &'m [u16],
+    pub slots: &'m [u32],
 }
 
 impl Plan<'_> {
-    /// The slot of an element with one body only.
-    pub const GROUND: u16 = u16::MAX;
+    /// The slot of an element with one body only: no pair has it.
+    pub const GROUND: u32 = u32::MAX;
     /// The empty plan.
     pub const NONE: Self = Self { order: &[], pairs: &[], targets: &[], slots: &[] };
 
@@ -29,57 +29,56 @@ impl Plan<'_> {
     /// springs: then a solution by it is that of the whole matrix.
     #[must_use]
     pub fn fits(&self, bodies: usize, ends: impl Iterator<Item = [u16; 2]>) -> bool {
-        let is_ground = |body: u16| usize::from(body) >= bodies;
-        let place = |body: u16| self.order.iter().position(|[known, _]| *known == body);
-        let all_once = self.order.len() == bodies
-            && (0..bodies).all(|body| u16::try_from(body).is_ok_and(|body| place(body).is_some()));
-        if !all_once {
-            return false;
-        }
-        let places = |pair: &[u16; 2]| Some([place(pair[0])?, place(pair[1])?]);
-        let mut last = None;
-        for pair in self.pairs {
-            let Some(now) = places(pair) else { return false };
-            if now[0] >= now[1] || last.is_some_and(|last| last >= now) {
+        let is_there =
+            |body: usize| self.order.iter().any(|[known, _]| usize::from(*known) == body);
+        self.order.len() == bodies
+            && (0..bodies).all(is_there)
+            && self.columns_fit()
+            && self.slots_fit(bodies, ends)
+    }
+
+    /// Pairs and targets, body by body in order.
+    fn columns_fit(&self) -> bool {
+        let Self { mut order, mut pairs, mut targets, .. } = *self;
+        while let Some(([body, count], later)) = order.split_first() {
+            let Some((column, rest)) = pairs.split_at_checked(usize::from(*count)) else {
+                return false;
+            };
+            let mut others = later.iter();
+            let mut ascending = column
+                .iter()
+                .map(|[first, second]| first == body && others.any(|[other, _]| other == second));
+            if !ascending.all(|follows| follows) {
                 return false;
             }
-            last = Some(now);
+            for (i, [_, second]) in column.iter().enumerate() {
+                for [_, first] in column.iter().take(i) {
+                    let Some((target, left)) = targets.split_first() else { return false };
+                    if self.pairs.get(*target as usize) != Some(&[*first, *second]) {
+                        return false;
+                    }
+                    targets = left;
+                }
+            }
+            (order, pairs) = (later, rest);
         }
+        pairs.is_empty() && targets.is_empty()
+    }
+
+    fn slots_fit(&self, bodies: usize, ends: impl Iterator<Item = [u16; 2]>) -> bool {
+        let is_ground = |body: u16| usize::from(body) >= bodies;
         let mut slots = self.slots.iter();
         for [a, b] in ends {
             let Some(&slot) = slots.next() else { return false };
-            let held = match self.pairs.get(usize::from(slot)) {
+            let held = match self.pairs.get(slot as usize) {
                 Some(pair) => *pair == [a, b] || *pair == [b, a],
-                None => slot == Self::GROUND && (is_ground(a) || is_ground(b)),
+                None => is_ground(a) || is_ground(b),
             };
             if !held {
                 return false;
             }
         }
-        slots.next().is_none() && self.counts_fit() && self.targets_fit()
-    }
-
-    fn counts_fit(&self) -> bool {
-        let of = |body: u16| self.pairs.iter().filter(|pair| pair[0] == body).count();
-        self.order.iter().all(|[body, count]| of(*body) == usize::from(*count))
-    }
-
-    fn targets_fit(&self) -> bool {
-        let mut targets = self.targets.iter();
-        for [body, _] in self.order {
-            let mut column = self.pairs.iter().filter(|pair| pair[0] == *body).enumerate();
-            let with_it = self.pairs.iter().filter(|pair| pair[0] == *body);
-            let all = column.all(|(i, [_, second])| {
-                with_it.clone().take(i).all(|[_, first]| {
-                    let target = targets.next().and_then(|row| self.pairs.get(usize::from(*row)));
-                    target == Some(&[*first, *second])
-                })
-            });
-            if !all {
-                return false;
-            }
-        }
-        targets.next().is_none()
+        slots.next().is_none()
     }
 }
 

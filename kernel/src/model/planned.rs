@@ -25,9 +25,9 @@ pub struct Planned<
     /// [`Plan::pairs`].
     pub pairs: [[u16; 2]; PAIRS],
     /// [`Plan::targets`].
-    pub targets: [u16; TARGETS],
+    pub targets: [u32; TARGETS],
     /// [`Plan::slots`].
-    pub slots: [u16; SLOTS],
+    pub slots: [u32; SLOTS],
 }
 
 impl<H, const O: usize, const PAIRS: usize, const T: usize, const SLOTS: usize> ModelOwner

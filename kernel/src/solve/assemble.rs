@@ -177,7 +177,7 @@ struct Mount<'s, S: Space> {
 impl<'s, S: Space> Mount<'s, S> {
     fn new(system: &'s mut System<'_, S>, ends: [BodyIndex; 2], number: usize) -> Self {
         let Plan { pairs, slots, .. } = system.plan;
-        let slot = slots.get(number).map_or(usize::MAX, |slot| usize::from(*slot));
+        let slot = slots.get(number).map_or(usize::MAX, |slot| *slot as usize);
         let pair = pairs.get(slot).map(|[first, _]| *first == ends[0].0);
         let pair = pair.and_then(|ordered| Some((system.pairs.get_mut(slot)?, ordered)));
         Self { diagonal: system.diagonal, ends, pair }

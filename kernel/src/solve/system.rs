@@ -44,7 +44,7 @@ impl<S: Space> System<'_, S> {
                 for other in before.iter() {
                     let Some((target, rest)) = targets.split_first() else { break };
                     targets = rest;
-                    let target = usize::from(*target).checked_sub(first);
+                    let target = (*target as usize).checked_sub(first);
                     if let Some(target) = target.and_then(|row| later.get_mut(row)) {
                         // The previous blocks are already divided.
                         S::Row::reduce(target, block, other);
@@ -150,7 +150,7 @@ mod tests {
                         of_all[6 * end..6 * end + 6].copy_from_slice(&row);
                     }
                 }
-                if let Some(block) = pairs.get_mut(usize::from(*slot)) {
+                if let Some(block) = pairs.get_mut(*slot as usize) {
                     rows[1].add_product(3.0, &rows[0], block);
                 }
                 for (whole, a) in whole.iter_mut().zip(of_all) {
