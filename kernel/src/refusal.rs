@@ -54,6 +54,7 @@ impl core::error::Error for PlantError {}
 /// Why an input could not be set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
+#[non_exhaustive]
 pub enum InputError {
     /// The model has no such input.
     Unknown(InputIndex),
@@ -85,6 +86,7 @@ impl core::error::Error for InputError {}
 /// Why a state could not be set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
+#[non_exhaustive]
 pub enum StateError {
     /// It differs from the model in the number of bodies, torsion springs or inputs.
     Count,

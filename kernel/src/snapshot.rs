@@ -26,6 +26,7 @@ const CHECKSUM: usize = 4;
 /// Why a snapshot was not written, or refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
+#[non_exhaustive]
 pub enum SnapshotError {
     /// The buffer is shorter than the given number of bytes.
     Buffer(usize),

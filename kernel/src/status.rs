@@ -15,6 +15,7 @@ pub struct Failure {
 /// The cause of a failure, with its body or element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
+#[non_exhaustive]
 pub enum Cause {
     /// A number of this body's state is infinite or not a number.
     NonFinite {

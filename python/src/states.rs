@@ -79,6 +79,6 @@ fn sentence(instance: &Instance, error: &StateError) -> String {
         StateError::OffPlane(body) => {
             format!("the state of `{}` leaves the plane of the scene", name(body.0))
         }
-        StateError::Count | StateError::Signal(_) | StateError::Law => error.to_string(),
+        _ => error.to_string(),
     }
 }

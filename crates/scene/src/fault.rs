@@ -52,5 +52,6 @@ pub fn fault(scene: &Scene, cause: &Cause) -> String {
                 "the torsion angle of {spring} is undefined: its bodies have turned by 180° across its axis"
             )
         }
+        other => format!("{other:?}"),
     }
 }

@@ -5,6 +5,7 @@ use crate::index::BodyIndex;
 /// Why an element could not be added; the builder is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
+#[non_exhaustive]
 pub enum BuildError {
     /// The capacity for this part is used up.
     Full(Part),
