@@ -3,7 +3,8 @@
 //!
 //! `(text, changes) => tables with other values`. A changed value is checked like one in the file; an error points to
 //! the change. In a list of tables the second step of a path is a name, or the number from 1 of an unnamed table; then
-//! follow keys and array indices from 0. A missing key is added to its table.
+//! follow keys and array indices from 0. A missing key is added to its table, and so is a missing table: then reading the
+//! scene checks whether there may be one.
 
 mod named;
 mod numbers;
@@ -127,6 +128,9 @@ fn is_word(value: &str) -> bool {
     value.chars().all(plain) && !(number || radix || keyword)
 }
 
+/// Keys of the scene that are tables: they are added where they are missing. Lists of tables are not.
+const TABLES: [&str; 5] = ["assemble", "defaults", "parameters", "points", "start"];
+
 /// One step of the path to a value: a key or an array index.
 #[derive(Clone, Debug)]
 enum To {
@@ -160,11 +164,17 @@ impl Change {
         let mut steps = self.steps.iter().peekable();
         while let Some((step, place)) = steps.next() {
             let place = self.start + place.start..self.start + place.end;
-            let last = steps.peek().is_none();
+            let may_add = match steps.peek() {
+                None => true,
+                Some((Step::Name { .. }, _)) => {
+                    place.start > self.start || TABLES.iter().any(|table| step.fits(table))
+                }
+                Some(_) => false,
+            };
             let mut next = Vec::new();
             let mut known: Vec<String> = Vec::new();
             for (way, node) in ways {
-                for (to, node) in node.children(step, last, &mut known) {
+                for (to, node) in node.children(step, may_add, &mut known) {
                     let mut way: Vec<To> = way.clone();
                     way.push(to);
                     next.push((way, node));
@@ -198,10 +208,11 @@ enum Node<'d> {
 
 impl<'d> Node<'d> {
     /// The matches of a step; possible names are added to `known`.
-    fn children(self, step: &Step, last: bool, known: &mut Vec<String>) -> Vec<(To, Node<'d>)> {
+    fn children(self, step: &Step, may_add: bool, known: &mut Vec<String>) -> Vec<(To, Node<'d>)> {
         match self {
-            Self::Table(table) => Self::keys(table, step, last, known),
-            Self::Value(DeValue::Table(table)) => Self::keys(table, step, last, known),
+            Self::Table(table) => Self::keys(table, step, may_add, known),
+            Self::Value(DeValue::Table(table)) => Self::keys(table, step, may_add, known),
+            Self::Absent => Self::added(step).into_iter().collect(),
             Self::Value(DeValue::Array(array)) => {
                 let entry = |i: usize| array.get(i).map(|entry| Self::Value(entry.get_ref()));
                 match step {
@@ -226,14 +237,14 @@ impl<'d> Node<'d> {
                     }
                 }
             }
-            Self::Value(_) | Self::Absent => Vec::new(),
+            Self::Value(_) => Vec::new(),
         }
     }
 
     fn keys(
         table: &'d DeTable<'d>,
         step: &Step,
-        last: bool,
+        may_add: bool,
         known: &mut Vec<String>,
     ) -> Vec<(To, Node<'d>)> {
         let mut found = Vec::new();
@@ -244,12 +255,18 @@ impl<'d> Node<'d> {
                 found.push((To::Key(key.to_owned()), Self::Value(value.get_ref())));
             }
         }
-        // Reading the scene checks whether the table allows the key.
-        if let (true, true, Step::Name { text, is_pattern: false }) = (found.is_empty(), last, step)
-        {
-            found.push((To::Key(text.clone()), Self::Absent));
+        if found.is_empty() && may_add {
+            found.extend(Self::added(step));
         }
         found
+    }
+
+    /// A key to add; reading the scene checks whether the table allows it.
+    fn added(step: &Step) -> Option<(To, Node<'d>)> {
+        match step {
+            Step::Name { text, is_pattern: false } => Some((To::Key(text.clone()), Self::Absent)),
+            _ => None,
+        }
     }
 }
 
@@ -290,6 +307,17 @@ fn put<'t>(
     let mut table = Some(document);
     let mut entry: Option<&mut DeValue<'t>> = None;
     for to in before {
+        if let To::Key(key) = to {
+            let within = match (&mut table, &mut entry) {
+                (Some(table), _) => Some(&mut **table),
+                (None, Some(DeValue::Table(table))) => Some(table),
+                _ => None,
+            };
+            if let Some(within) = within.filter(|within| !within.contains_key(key.as_str())) {
+                let added = Spanned::new(written.clone(), DeValue::Table(DeTable::new()));
+                within.insert(Spanned::new(written.clone(), key.clone().into()), added);
+            }
+        }
         let next = child(table.take(), entry.take(), to)?;
         entry = Some(next.get_mut());
     }

@@ -63,6 +63,19 @@ fn a_changed_value_gives_the_model_of_a_changed_file() {
         ("tsda.1.points[1][2]=0.1", "], [0, 0, 0]]", "], [0, 0, 0.1]]", "tsda.1.points[1][2]"),
         ("tsda.1.damping=3", "= 10", "= 10\ndamping = 3", "tsda.1.damping"),
         ("joint.rail.type=spherical", "\"spherical\"", "\"spherical\"", "joint.rail.type"),
+        // Missing tables are added.
+        (
+            "defaults.tsda.damping=3",
+            "duration = 1",
+            "duration = 1\ndefaults.tsda.damping = 3",
+            "defaults.tsda.damping",
+        ),
+        (
+            "body.leg?2.orientation.quaternion=[0, 1, 0, 0]",
+            "mass = 3",
+            "mass = 3\norientation.quaternion = [0, 1, 0, 0]",
+            "body.\"leg.2\".orientation.quaternion",
+        ),
     ] {
         let scene = with(&[change]).unwrap_or_else(|error| panic!("{change}: {error}"));
         assert_eq!(scene.model, edited(from, to).model, "{change}");
@@ -97,6 +110,9 @@ fn what_is_wrong_with_a_change_is_shown_in_it() {
         ("bdoy.cart.mass=1", 1, "the scene has no key `bdoy`", "did you mean `body`?"),
         ("body.cart.mas=1", 1, "no key `mas`", "did you mean `mass`?"),
         ("body.cart.mass.x=1", 16, "no body `x`", "plain value"),
+        ("joint.rail.limts.max=1", 1, "no key `limts`", "may have"),
+        ("torsion_spring.1.damping=1", 1, "has no key `torsion_spring`", "known: body"),
+        ("body.cart.orientation[0]=1", 11, "no body `orientation`", "known: inertia"),
         ("body.cart.inertia[3]=1", 18, "no entry 3", "entries 0 to 2"),
         ("body.cart[0]=1", 10, "no entry 0", "known: inertia, mass"),
         ("body.z*.mass=1", 6, "no body `z*`", "cart"),
