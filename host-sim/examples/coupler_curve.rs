@@ -4,7 +4,7 @@
 use std::error::Error;
 
 use dbd_kernel::readouts::Readout;
-use dbd_kernel::{BodyIndex, Vec3};
+use dbd_kernel::{BodyIndex, GroupIndex, Vec3};
 use dbd_plant::{Method, plant};
 use dbd_scene::Scene;
 
@@ -17,7 +17,7 @@ pub fn curve() -> Result<[f64; 3], Box<dyn Error>> {
     let body = scene.body_names.iter().position(|name| name == "coupler").ok_or("no coupler")?;
     let joint = scene.joints.iter().find(|joint| joint.name == "A").ok_or("no joint A")?;
     let point = Readout::Point { body: BodyIndex(body as u16), point: Vec3::new(1.0, 0.0, 0.0) };
-    let force = Readout::JointForce { group: joint.groups.start as u16 };
+    let force = Readout::JointForce { group: GroupIndex(joint.groups.start as u16) };
     let mut plant = plant(&scene, &Method::default(), 2e-5)?;
     let (mut low, mut high, mut largest) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 0.0_f64);
     while plant.steps() < 12_500 {

@@ -5,7 +5,7 @@
 use crate::body::BodyState;
 use crate::elements::input::InputKind;
 use crate::geometry::{Geometry, Limits};
-use crate::index::{BodyIndex, InputIndex};
+use crate::index::{BodyIndex, GroupIndex, InputIndex};
 use crate::model::{Group, ModelRef, Terms};
 use crate::real::Real as _;
 
@@ -32,12 +32,12 @@ pub enum Part {
         /// The body.
         body: BodyIndex,
         /// The point's group; none for the point of an input.
-        group: Option<u16>,
+        group: Option<GroupIndex>,
     },
     /// A point of the ground, from the origin, along an axis.
     Ground {
         /// The point's group.
-        group: u16,
+        group: GroupIndex,
     },
     /// This body in one step, at its initial velocity.
     Drift(BodyIndex),
@@ -85,7 +85,7 @@ pub fn first_excess<P: Geometry, Q: Geometry, T: Terms<Q>>(
         let first = group.point as usize;
         let points = model.points.get(first..first + group.points()).unwrap_or(&[]);
         for (i, point) in points.iter().enumerate() {
-            let excess = out_of_reach::<Q>(&limits, group, row as u16, i, point);
+            let excess = out_of_reach::<Q>(&limits, group, GroupIndex(row as u16), i, point);
             if excess.is_some() {
                 return excess;
             }
@@ -124,7 +124,7 @@ pub fn first_excess<P: Geometry, Q: Geometry, T: Terms<Q>>(
 fn out_of_reach<Q: Geometry>(
     limits: &Limits,
     group: &Group,
-    row: u16,
+    row: GroupIndex,
     i: usize,
     point: &Q::Local,
 ) -> Option<Excess> {
@@ -187,8 +187,8 @@ mod tests {
         let fast = found(excess(zero, zero, zero, 1.0 / 64.0));
         assert_eq!(fast, Some((Part::Drift(body), 30.0 / 64.0, 0.125)));
         let point = found(excess(zero, zero, [6.0, 0.0, 8.0], 1e-3));
-        assert_eq!(point, Some((Part::Point { body, group: Some(0) }, 10.0, 7.0)));
+        assert_eq!(point, Some((Part::Point { body, group: Some(GroupIndex(0)) }, 10.0, 7.0)));
         let ground = found(excess(zero, [0.0, 0.0, 25.0], zero, 1e-3));
-        assert_eq!(ground, Some((Part::Ground { group: 0 }, 25.0, 24.0)));
+        assert_eq!(ground, Some((Part::Ground { group: GroupIndex(0) }, 25.0, 24.0)));
     }
 }

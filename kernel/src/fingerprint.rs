@@ -232,10 +232,10 @@ fn visit_source<P: Geometry>(source: &Source<P>, visitor: &mut impl WordVisitor)
             integers(2, [input.0, *knot, *knots]);
             match *sensor {
                 Sensor::Angle { spring, offset } => {
-                    integers(0, [spring, 0, 0]);
+                    integers(0, [spring.0, 0, 0]);
                     visitor.word(offset.word());
                 }
-                Sensor::Rate { spring } => integers(1, [spring, 0, 0]),
+                Sensor::Rate { spring } => integers(1, [spring.0, 0, 0]),
                 Sensor::Point { body, point } => {
                     integers(2, [body.0, 0, 0]);
                     point.visit(visitor);
@@ -276,7 +276,7 @@ fn visit_input<P: Geometry>(input: &Input<P>, visitor: &mut impl WordVisitor) {
             point.visit(visitor);
             axis.visit(visitor);
         }
-        InputKind::Actuator { group, element } => integers(5, *group, *element),
+        InputKind::Actuator { group, element } => integers(5, group.0, *element),
         InputKind::Signal => integers(7, 0, 0),
         InputKind::Gravity { direction } => {
             integers(9, 0, 0);

@@ -16,7 +16,9 @@ pub use crate::{
     elements::universal::Universal,
     fixed::{Fixed, FixedPlace, FixedPoint, FixedTurn, FixedVelocity},
     geometry::{F32, F64},
-    index::{BodyIndex, ClearanceIndex, DamperIndex, InputIndex, LawIndex},
+    index::{
+        BodyIndex, ClearanceIndex, DamperIndex, GroupIndex, InputIndex, LawIndex, TorsionIndex,
+    },
     laws::{CoordinateKind, Curve, Hinge, Ldl, Term},
     model::{Group, Law, Model, Planned},
     planar::{Planar32, Planar64},

@@ -10,6 +10,29 @@ pub struct InputIndex(pub u16);
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct TorsionIndex(pub u16);
 
+impl TorsionIndex {
+    /// The index into slices of torsion springs.
+    #[inline(always)]
+    #[must_use]
+    pub const fn row(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// The index of a group: the elements of a joint between two bodies, or a single element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
+pub struct GroupIndex(pub u16);
+
+impl GroupIndex {
+    /// The index into slices of groups.
+    #[inline(always)]
+    #[must_use]
+    pub const fn row(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// The index of a law's row, over all tables of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]

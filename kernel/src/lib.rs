@@ -185,7 +185,7 @@ pub use elements::universal::Universal;
 pub use energy::Energy;
 pub use fixed::Fixed;
 pub use geometry::{F32, F64, Geometry};
-pub use index::{BodyIndex, InputIndex, LawIndex, TorsionIndex};
+pub use index::{BodyIndex, GroupIndex, InputIndex, LawIndex, TorsionIndex};
 pub use model::{Model, ModelOwner};
 pub use planar::{Planar32, Planar64};
 pub use plant::Plant;

@@ -11,7 +11,7 @@ use crate::elements::input::InputKind;
 use crate::elements::source::Sensor;
 use crate::forces::{self, ExplicitDampers, ForcePair};
 use crate::geometry::Geometry;
-use crate::index::{BodyIndex, InputIndex, LawIndex};
+use crate::index::{BodyIndex, GroupIndex, InputIndex, LawIndex, TorsionIndex};
 use crate::laws::{self, Instant, Laws as _};
 use crate::model::{FrameOf, Group, ModelOwner, ModelRef, RealOf, Terms};
 use crate::plant::Plant;
@@ -50,15 +50,15 @@ impl<P: Geometry> Slide<P> {
 pub enum Readout<P: Geometry> {
     /// \[rad\] the torsion angle of a torsion spring, unwrapped.
     JointAngle {
-        /// Its index among the torsion springs.
-        spring: u16,
+        /// The spring.
+        spring: TorsionIndex,
         /// \[rad\] the value at a torsion angle of 0.
         offset: P::Real,
     },
     /// \[rad/s\] the rate of that torsion angle.
     JointRate {
-        /// The spring's index among the torsion springs.
-        spring: u16,
+        /// The spring.
+        spring: TorsionIndex,
     },
     /// \[m\] the travel of a point of B from one of A along an axis of A.
     JointTravel {
@@ -89,14 +89,14 @@ pub enum Readout<P: Geometry> {
     /// \[N\] the tension of a TSDA: spring, damper and actuators.
     TsdaForce {
         /// The TSDA's group.
-        group: u16,
+        group: GroupIndex,
         /// Its index in the group.
         element: u16,
     },
     /// \[N\] the force of a joint on its second body, world: springs, dampers and actuators.
     JointForce {
         /// The joint's group.
-        group: u16,
+        group: GroupIndex,
     },
     /// \[m/s², rad/s\] specific force and angular rate at a point of a body, body axes: an inertial measurement unit.
     Imu {
@@ -240,13 +240,13 @@ pub fn read<M: ModelOwner>(
         }
         Readout::JointTravelRate { slide } => Some(Reading::Scalar(travel(&slide)?[1])),
         Readout::TsdaForce { group, element } => {
-            let row = group as usize;
+            let row = group.row();
             let group = view.groups.get(row)?;
             let tension = tension(&view, places, bodies, (row, group), element as usize)?;
             Some(Reading::Scalar(tension))
         }
         Readout::JointForce { group } => {
-            let row = group as usize;
+            let row = group.row();
             let group = view.groups.get(row)?;
             Some(Reading::Vector(force(&view, places, bodies, (row, group)).in_space()))
         }
@@ -308,7 +308,7 @@ fn tension<P: Geometry, T: Terms<P>>(
     };
     let mut tension = force.dot(d) * d.dot(d).sqrt().reciprocal_or_zero();
     for (input, signal) in view.inputs.iter().zip(places.signals) {
-        let this = InputKind::Actuator { group: row as u16, element: element as u16 };
+        let this = InputKind::Actuator { group: GroupIndex(row as u16), element: element as u16 };
         if input.kind == this {
             tension = tension + signal.value;
         }

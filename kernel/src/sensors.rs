@@ -4,7 +4,7 @@
 
 use crate::elements::source::{Sensor, SourceLaw};
 use crate::geometry::Geometry;
-use crate::index::BodyIndex;
+use crate::index::{BodyIndex, TorsionIndex};
 use crate::model::{FrameOf, ModelOwner, ModelRef, RealOf};
 use crate::pose::{End, Places, place_bodies, torsion_angle_of};
 use crate::real::Real;
@@ -35,9 +35,9 @@ pub(crate) fn motion<M: ModelOwner>(
     let bodies = state.bodies.as_ref();
     let end = |body: BodyIndex| End::new(view, places, body, Some(bodies));
     let there = |body: BodyIndex| bodies.get(body.row());
-    let torsion_angle = |spring: u16| {
-        let turns = *RealOf::<M>::counts(state.turns.as_ref()).get(spring as usize)?;
-        let spring = view.torsions.get(spring as usize)?;
+    let torsion_angle = |spring: TorsionIndex| {
+        let turns = *RealOf::<M>::counts(state.turns.as_ref()).get(spring.row())?;
+        let spring = view.torsions.get(spring.row())?;
         Some((spring, torsion_angle_of::<M::Precision>(spring, bodies, turns)?))
     };
     Some(match *sensor {

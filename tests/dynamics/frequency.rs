@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 use dbd_kernel::builder::{LineLaw, Triples};
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::{
-    BodyIndex, BodyState, F64, Leapfrog, ModelOwner, Plant, Quaternion, State, Vec3, frequency,
+    BodyIndex, BodyState, F64, GroupIndex, Leapfrog, ModelOwner, Plant, Quaternion, State, Vec3,
+    frequency,
 };
 use dbd_plant::frequencies::Frequencies;
 use dbd_study::reference::instant::End;
@@ -182,7 +183,7 @@ fn strained(pull: f64) -> Bench<F64> {
     };
     model.add_triples(triples).unwrap();
     model.add_torsion_spring([b, c], [0.0, 0.6, 0.8], 300.0, 0.0, 90.0).unwrap();
-    model.add_input(InputKind::Actuator { group: 2, element: 0 }, pull).unwrap();
+    model.add_input(InputKind::Actuator { group: GroupIndex(2), element: 0 }, pull).unwrap();
     model
 }
 
@@ -284,7 +285,7 @@ fn a_tension_alone_swings_across_its_line() {
     let body = model.add_body(2.0, [0.1; 3], at(0.8)).unwrap();
     let world = BodyIndex::WORLD;
     model.add_tsda([world, body], [[0.0; 3]; 2], 1e-9, 0.0, 0.8).unwrap();
-    model.add_input(InputKind::Actuator { group: 0, element: 0 }, 50.0).unwrap();
+    model.add_input(InputKind::Actuator { group: GroupIndex(0), element: 0 }, 50.0).unwrap();
     let [highest, ratio] = bound(&model, &State::initial(&model), 0.0);
     assert!((highest - (50.0_f64 / (2.0 * 0.8)).sqrt()).abs() < 1e-6, "{highest}");
     assert!((1.0..1.01).contains(&ratio), "{ratio}");
@@ -379,7 +380,9 @@ fn what_a_tension_adds_is_in_the_bound() {
             let body = lone(model, 1e4, 0.1);
             let points = [[5.0, 0.0, 0.0], [0.2, 0.0, 0.0]];
             model.add_tsda([WORLD, body], points, 1e-3, 0.0, 1.0).unwrap();
-            model.add_input(InputKind::Actuator { group: 0, element: 0 }, 80.0).unwrap();
+            model
+                .add_input(InputKind::Actuator { group: GroupIndex(0), element: 0 }, 80.0)
+                .unwrap();
         }),
     ];
     for (name, build) in cases {

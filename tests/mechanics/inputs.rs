@@ -7,8 +7,8 @@ use dbd_kernel::model::{Group, Law, ModelOwner as _};
 use dbd_kernel::plant::InputError;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    Body, BodyIndex, Dbd, F32, F64, Fixed, Geometry, InputIndex, JointWise, Leapfrog, LoadFrame,
-    Model, Plant, Real as _, Scheme, Tsda, Vec3,
+    Body, BodyIndex, Dbd, F32, F64, Fixed, Geometry, GroupIndex, InputIndex, JointWise, Leapfrog,
+    LoadFrame, Model, Plant, Real as _, Scheme, Tsda, Vec3,
 };
 use dbd_tests::{Bench, at, free_ring, momenta};
 
@@ -48,7 +48,8 @@ fn inputs_between_two_bodies_keep_the_momentum() {
     let point = Vec3::new(0.1, -0.2, 0.3);
     model.add_input(InputKind::JointForce { a, b, point, axis }, 5.0).unwrap();
     // Group 2 is the raw TSDA between the third body and the first.
-    let pull = model.add_input(InputKind::Actuator { group: 2, element: 0 }, 0.0).unwrap();
+    let pull =
+        model.add_input(InputKind::Actuator { group: GroupIndex(2), element: 0 }, 0.0).unwrap();
     let masses: [_; 3] = std::array::from_fn(|i| {
         let body = &dbd_kernel::ModelOwner::view(&model).bodies[i];
         (body.mass, body.inertia.to_f64())
@@ -70,7 +71,7 @@ fn an_actuator_pulls_its_points_together() {
     let mut model = Bench::<F64>::new();
     let body = model.add_body(2.0, [0.1; 3], at([1.0, 0.0, 0.0])).unwrap();
     model.add_tsda([BodyIndex::WORLD, body], [[0.0; 3]; 2], 0.0, 0.0, 1.0).unwrap();
-    let kind = InputKind::Actuator { group: 0, element: 0 };
+    let kind = InputKind::Actuator { group: GroupIndex(0), element: 0 };
     let table = [[0.0, 8.0], [0.05, 0.0]];
     model.add_table(kind, &table, false).unwrap();
     let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
@@ -174,7 +175,7 @@ fn an_input_set_in_every_step_costs_no_evaluation() {
         let axis = P::Moment::from_f64([0.0, 0.6, 0.8]);
         let turn = InputKind::JointTorque { a, b, axes: [axis; 2] };
         let turn = model.add_input(turn, 0.0).unwrap();
-        let pull = InputKind::Actuator { group: 2, element: 0 };
+        let pull = InputKind::Actuator { group: GroupIndex(2), element: 0 };
         let pull = model.add_input(pull, 0.0).unwrap();
         let (point, direction) =
             (P::local_from_f64([0.1, 0.2, 0.0]), P::Vector::from_f64([0.0, 1.0, 0.0]));
@@ -207,7 +208,7 @@ fn an_input_set_in_every_step_costs_no_evaluation() {
 #[test]
 fn setting_a_value_costs_no_evaluation() {
     let mut model = free_ring::<F64>(0.0);
-    let kind = InputKind::Actuator { group: 2, element: 0 };
+    let kind = InputKind::Actuator { group: GroupIndex(2), element: 0 };
     let pull = model.add_input(kind, 1.0).unwrap();
     let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
     for _ in 0..10 {

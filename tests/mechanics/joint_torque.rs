@@ -3,7 +3,7 @@
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::energy::energy;
 use dbd_kernel::readouts::{Reading, Readout};
-use dbd_kernel::{BodyIndex, F64, Leapfrog, ModelOwner as _, Plant, Vec3};
+use dbd_kernel::{BodyIndex, F64, Leapfrog, ModelOwner as _, Plant, TorsionIndex, Vec3};
 use dbd_scene::Scene;
 use dbd_tests::{Bench, free_ring};
 
@@ -39,7 +39,7 @@ fn the_power_is_the_torque_times_the_rate_of_the_angle() {
     let model = driven(true);
     let h = 1e-4;
     let mut plant = Plant::new(&model, Leapfrog, h).unwrap();
-    let spring = (model.view().torsions.len() - 1) as u16;
+    let spring = TorsionIndex((model.view().torsions.len() - 1) as u16);
     let rate = |reading| match reading {
         Some(Reading::Scalar(rate)) => rate,
         other => panic!("{other:?}"),

@@ -6,7 +6,7 @@ use dbd_kernel::euler::{EulerF32, EulerF64};
 use dbd_kernel::readouts::Readout;
 use dbd_kernel::{
     BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, F32, F64, Geometry, Leapfrog, Pefrl,
-    Plant, Quaternion, Real, Rk4, Scheme, SemiImplicitEuler, Vec3,
+    Plant, Quaternion, Real, Rk4, Scheme, SemiImplicitEuler, TorsionIndex, Vec3,
 };
 use dbd_scene::SceneModel;
 use dbd_tests::page::{block, table};
@@ -241,7 +241,10 @@ fn a_torsion_spring_winds_through_the_pole() {
         for n in 1..=500 {
             plant.advance(10).unwrap();
             let angle = plant
-                .read(&Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO })
+                .read(&Readout::JointAngle {
+                    spring: TorsionIndex(0),
+                    offset: dbd_kernel::Real::ZERO,
+                })
                 .unwrap()
                 .scalar()
                 .unwrap();

@@ -7,9 +7,9 @@ use dbd_kernel::energy::energy;
 use dbd_kernel::readouts::{Reading, Readout, each_force, each_tension};
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry, Leapfrog,
-    Load, LoadFrame, Model, Pefrl, Planar32, Planar64, Plant, Rk4, Scheme, SemiImplicitEuler,
-    State, frequency,
+    BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry,
+    GroupIndex, Leapfrog, Load, LoadFrame, Model, Pefrl, Planar32, Planar64, Plant, Rk4, Scheme,
+    SemiImplicitEuler, State, TorsionIndex, frequency,
 };
 use dbd_tests::{Bench, turned};
 
@@ -117,7 +117,9 @@ fn machine<P: Geometry>(damped: Damped) -> Bench<P> {
     model.add_input(InputKind::Torque { body: CRANK, axis, frame }, 0.7).unwrap();
     model.add_input(InputKind::JointTorque { a: CRANK, b: ROD, axes: [axis; 2] }, -0.4).unwrap();
     let table = [[0.0, 0.0], [0.05, 6.0], [0.2, -3.0]];
-    model.add_table(InputKind::Actuator { group: 5, element: 1 }, &table, true).unwrap();
+    model
+        .add_table(InputKind::Actuator { group: GroupIndex(5), element: 1 }, &table, true)
+        .unwrap();
     let table = [[0.0, 0.0], [0.1, 0.02], [0.15, 0.0]];
     let road = model.add_table(InputKind::Anchor { direction }, &table, true).unwrap();
     let between = [BodyIndex::anchor(road), ROD];
@@ -210,13 +212,13 @@ fn looks<P: Geometry>(damped: Damped) -> (Vec<f64>, f64, f64) {
     strengths(&model, plant.state(), |strength| seen.push(strength.rate));
     let point = P::local_from_f64([0.1, 0.2, 0.0]);
     for readout in [
-        Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO },
-        Readout::JointAngle { spring: 1, offset: dbd_kernel::Real::ZERO },
-        Readout::JointRate { spring: 1 },
+        Readout::JointAngle { spring: TorsionIndex(0), offset: dbd_kernel::Real::ZERO },
+        Readout::JointAngle { spring: TorsionIndex(1), offset: dbd_kernel::Real::ZERO },
+        Readout::JointRate { spring: TorsionIndex(1) },
         Readout::Point { body: ROD, point },
         Readout::PointVelocity { body: ROD, point },
-        Readout::TsdaForce { group: 5, element: 1 },
-        Readout::JointForce { group: 1 },
+        Readout::TsdaForce { group: GroupIndex(5), element: 1 },
+        Readout::JointForce { group: GroupIndex(1) },
         Readout::Imu { body: SLIDER, point },
     ] {
         match plant.read(&readout).unwrap() {
@@ -280,8 +282,8 @@ fn turns_are_counted_as_in_space() {
         model.add_torsion_spring([WORLD, wheel], [0.0, 0.0, 1.0], 1e-6, 0.0, 0.0).unwrap();
         let mut plant = Plant::new(model_of(model), Leapfrog, 0.02).unwrap();
         plant.advance(100).unwrap();
-        let Some(Reading::Scalar(angle)) =
-            plant.read(&Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO })
+        let Some(Reading::Scalar(angle)) = plant
+            .read(&Readout::JointAngle { spring: TorsionIndex(0), offset: dbd_kernel::Real::ZERO })
         else {
             panic!("an angle")
         };

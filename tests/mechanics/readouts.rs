@@ -6,8 +6,8 @@ use dbd_kernel::model::Law;
 use dbd_kernel::readouts::{Reading, Readout, each_force, each_tension, read};
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    BodyIndex, BodyState, F32, F64, Geometry, InputIndex, Leapfrog, Load, LoadFrame, Planar32,
-    Planar64, Plant, Real as _, Vec3,
+    BodyIndex, BodyState, F32, F64, Geometry, GroupIndex, InputIndex, Leapfrog, Load, LoadFrame,
+    Planar32, Planar64, Plant, Real as _, TorsionIndex, Vec3,
 };
 use dbd_tests::{Bench, at, scene, scene_names, turned};
 
@@ -27,14 +27,16 @@ fn angles_are_unwrapped_and_rates_signed() {
     let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
     plant.advance(5_000).unwrap();
     let angle = plant
-        .read(&Readout::JointAngle { spring: 0, offset: dbd_kernel::Real::ZERO })
+        .read(&Readout::JointAngle { spring: TorsionIndex(0), offset: dbd_kernel::Real::ZERO })
         .unwrap()
         .scalar()
         .unwrap();
-    let rate = plant.read(&Readout::JointRate { spring: 0 }).unwrap().scalar().unwrap();
+    let rate =
+        plant.read(&Readout::JointRate { spring: TorsionIndex(0) }).unwrap().scalar().unwrap();
     assert!((angle + 20.0).abs() < 1e-9 && (rate + 4.0).abs() < 1e-12, "{angle} {rate}");
     assert_eq!(
-        plant.read(&Readout::JointAngle { spring: 1, offset: dbd_kernel::Real::ZERO }),
+        plant
+            .read(&Readout::JointAngle { spring: TorsionIndex(1), offset: dbd_kernel::Real::ZERO }),
         None
     );
 }
@@ -91,9 +93,10 @@ fn tensions_and_joint_forces() {
     let body = model.add_body(2.0, [0.1; 3], moving).unwrap();
     model.add_tsda([WORLD, body], [[0.0; 3]; 2], 100.0, 4.0, 1.0).unwrap();
     let plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
-    let tension = plant.read(&Readout::TsdaForce { group: 0, element: 0 }).unwrap();
+    let tension = plant.read(&Readout::TsdaForce { group: GroupIndex(0), element: 0 }).unwrap();
     assert!((tension.scalar().unwrap() - (100.0 * 0.2 + 4.0 * 0.5)).abs() < 1e-12);
-    let force = plant.read(&Readout::JointForce { group: 0 }).unwrap().vector().unwrap();
+    let force =
+        plant.read(&Readout::JointForce { group: GroupIndex(0) }).unwrap().vector().unwrap();
     assert!(near(force, [-22.0, 0.0, 0.0], 1e-12), "on the second body: {force:?}");
 }
 
@@ -109,19 +112,19 @@ fn pulled<P: Geometry>(damping: f64, tolerance: f64) {
     let points = [[0.1, 0.05, 0.0], [-0.05, 0.1, 0.0]];
     model.add_tsda([a, b], points, 80.0, damping, 0.7).unwrap();
     model.add_tsda([WORLD, a], points, 60.0, damping, 0.2).unwrap();
-    let pull = InputKind::Actuator { group: 0, element: 0 };
+    let pull = InputKind::Actuator { group: GroupIndex(0), element: 0 };
     model.add_input(pull, 7.0).unwrap();
     model.add_table(pull, &[[0.0, -3.0], [1.0, 9.0]], true).unwrap();
     let mut plant = Plant::new(&model, Leapfrog, 1e-3).unwrap();
     plant.advance(40).unwrap();
     let close = |x: f64, y: f64| (x - y).abs() < tolerance;
     let mut on_b = Vec3::<f64>::ZERO;
-    for group in 0..2 {
+    for group in [0, 1].map(GroupIndex) {
         let tension = plant.read(&Readout::TsdaForce { group, element: 0 }).unwrap();
         let tension = tension.scalar().unwrap().to_f64();
         let force = plant.read(&Readout::JointForce { group }).unwrap().vector().unwrap();
         let force = Vec3::from_f64(force.to_f64());
-        let ends = [[a, b], [WORLD, a]][usize::from(group)];
+        let ends = [[a, b], [WORLD, a]][group.row()];
         let at = |end: usize| match ends[end] {
             WORLD => Vec3::<f64>::from_f64(points[end]),
             body => {
@@ -133,10 +136,10 @@ fn pulled<P: Geometry>(damping: f64, tolerance: f64) {
         let d = at(0) - at(1);
         let along = d * (tension / d.dot(d).sqrt());
         for (x, y) in force.to_f64().into_iter().zip(along.to_f64()) {
-            assert!(close(x, y), "group {group}, damping {damping}: {force:?} {along:?}");
+            assert!(close(x, y), "group {group:?}, damping {damping}: {force:?} {along:?}");
         }
         assert!(tension.abs() > 1.0);
-        if group == 0 {
+        if group.row() == 0 {
             on_b = force;
         }
     }
@@ -180,7 +183,7 @@ fn stepped<P: Geometry>() -> Bench<P> {
     let road = model.add_table(InputKind::Anchor { direction }, &road, false).unwrap();
     let points = [[-1.0, 0.0, 0.0], [0.0; 3]];
     model.add_tsda([BodyIndex::anchor(road), body], points, 40.0, 0.0, 1.0).unwrap();
-    let pull = InputKind::Actuator { group: 0, element: 0 };
+    let pull = InputKind::Actuator { group: GroupIndex(0), element: 0 };
     model.add_table(pull, &[[0.0, 0.0], [0.005, 100.0]], false).unwrap();
     model
 }
@@ -199,7 +202,7 @@ fn what_a_table_drives_is_read_at_its_time() {
         let extension = x - road;
         let tension = 40.0 * extension + pull;
         assert_eq!(scalar(&plant, Readout::Input { input: InputIndex(1) }), Some(pull), "{n}");
-        let read = scalar(&plant, Readout::TsdaForce { group: 0, element: 0 }).unwrap();
+        let read = scalar(&plant, Readout::TsdaForce { group: GroupIndex(0), element: 0 }).unwrap();
         assert!((read - tension).abs() < 1e-9, "step {n}: {read} {tension}");
         let potential = energy(&model, plant.state(), h).potential();
         assert!((potential - 20.0 * extension * extension).abs() < 1e-12, "step {n}: {potential}");
@@ -235,11 +238,11 @@ fn all_tensions_and_forces_are_those_read_one_by_one() {
         each_force(model, plant.state(), |group, force| forces.push((group, force)));
         let (mut expected_tensions, mut expected_forces) = (Vec::new(), Vec::new());
         for (row, group) in model.groups.iter().enumerate() {
-            let force = one(Readout::JointForce { group: row as u16 });
+            let force = one(Readout::JointForce { group: GroupIndex(row as u16) });
             expected_forces.push((row, force.vector().unwrap()));
             let elements = if group.law == Law::Tsda { group.elements() } else { 0 };
             for element in 0..elements as u16 {
-                let tension = one(Readout::TsdaForce { group: row as u16, element });
+                let tension = one(Readout::TsdaForce { group: GroupIndex(row as u16), element });
                 expected_tensions.push((row, tension.scalar().unwrap()));
             }
         }

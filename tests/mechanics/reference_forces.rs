@@ -6,7 +6,8 @@ use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::forces::wrenches;
 use dbd_kernel::schedule::Signal;
 use dbd_kernel::{
-    BodyIndex, Dbd, F64, Leapfrog, Load, LoadFrame, ModelOwner, Plant, Scheme, State, Vec3,
+    BodyIndex, Dbd, F64, GroupIndex, Leapfrog, Load, LoadFrame, ModelOwner, Plant, Scheme, State,
+    Vec3,
 };
 use dbd_study::reference::signals::Clock;
 use dbd_study::reference::{self as reference, Mechanism, naive::Naive};
@@ -78,7 +79,7 @@ fn everything() -> Bench<F64> {
     model.add_input(InputKind::Torque { body: b, axis, frame: LoadFrame::World }, 0.4).unwrap();
     model.add_table(InputKind::JointTorque { a, b: c, axes: [axis; 2] }, &road, true).unwrap();
     model.add_input(InputKind::JointForce { a: c, b, point, axis }, 2.5).unwrap();
-    model.add_input(InputKind::Actuator { group: 2, element: 0 }, 3.0).unwrap();
+    model.add_input(InputKind::Actuator { group: GroupIndex(2), element: 0 }, 3.0).unwrap();
     model.add_table(InputKind::Gravity { direction: axis }, &steps, false).unwrap();
     model.add_tsda([anchor, b], [[0.0, 1.0, 0.0], [0.1; 3]], 80.0, 1.5, 0.4).unwrap();
     model.add_tsda([a, anchor], [[0.1; 3], [0.5, 1.0, 0.0]], 60.0, 2.0, 0.0).unwrap();

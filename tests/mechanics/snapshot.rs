@@ -5,8 +5,8 @@ use dbd_kernel::euler::{EulerF32, EulerF64};
 use dbd_kernel::snapshot::SnapshotError;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
-    BlanesMoanS6, BodyIndex, Dbd, DbdP2, Explicit, F32, F64, Fixed, Geometry, JointWise, Leapfrog,
-    Load, LoadFrame, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler,
+    BlanesMoanS6, BodyIndex, Dbd, DbdP2, Explicit, F32, F64, Fixed, Geometry, GroupIndex,
+    JointWise, Leapfrog, Load, LoadFrame, Pefrl, Plant, Rk4, Scheme, SemiImplicitEuler,
 };
 use dbd_tests::{Bench, at, hung_ring};
 
@@ -21,7 +21,9 @@ fn busy<P: Geometry>() -> Bench<P> {
     model.add_load(Load { body, frame, force, torque, from: 0.01, until: 0.06 }).unwrap();
     model.add_input(InputKind::Torque { body, axis, frame }, 0.1).unwrap();
     let table = [[0.0, 0.0], [0.03, 0.5], [0.07, -0.5]];
-    model.add_table(InputKind::Actuator { group: 2, element: 0 }, &table, true).unwrap();
+    model
+        .add_table(InputKind::Actuator { group: GroupIndex(2), element: 0 }, &table, true)
+        .unwrap();
     model
 }
 

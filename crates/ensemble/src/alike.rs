@@ -106,8 +106,8 @@ fn source<R: Real + Named>(source: &Source<Float<R>>) -> ([u16; 5], [f64; 2]) {
         SourceLaw::Periodic { period } => ([1, 0], [period, 0.0]),
         SourceLaw::Over { sensor, .. } => {
             let read = match sensor {
-                Sensor::Angle { spring, .. } => [2, spring],
-                Sensor::Rate { spring } => [3, spring],
+                Sensor::Angle { spring, .. } => [2, spring.0],
+                Sensor::Rate { spring } => [3, spring.0],
                 Sensor::Point { body, .. } => [4, body.0],
                 Sensor::Velocity { body, .. } => [5, body.0],
             };
@@ -130,7 +130,7 @@ fn input<R: Real + Named>(input: &Input<Float<R>>) -> InputShape {
         InputKind::Torque { body, frame, .. } => (1, [body.0, 0], frame),
         InputKind::JointTorque { a, b, .. } => (2, [a.0, b.0], LoadFrame::Body),
         InputKind::JointForce { a, b, .. } => (6, [a.0, b.0], LoadFrame::Body),
-        InputKind::Actuator { group, element } => (3, [group, element], LoadFrame::World),
+        InputKind::Actuator { group, element } => (3, [group.0, element], LoadFrame::World),
         InputKind::Anchor { .. } => (4, [0; 2], LoadFrame::World),
         InputKind::Gravity { .. } => (7, [0; 2], LoadFrame::World),
         InputKind::Velocity { body, .. } => (8, [body.0, 0], LoadFrame::World),

@@ -206,7 +206,7 @@ impl Budget {
                     most * (v_a + w_a * (apart + arm) + v_b + w_b * arm) * span
                 }
                 InputKind::Actuator { group, .. } => {
-                    let reach = self.reaches.get(usize::from(group));
+                    let reach = self.reaches.get(group.row());
                     reach.map_or(0.0, |reach| {
                         let ends = reach.bodies.into_iter().zip(reach.arms);
                         let speeds = ends.map(|(row, arm)| speed(row)[0] + speed(row)[1] * arm);

@@ -3,7 +3,7 @@
 //! `(scene, precision, step) => the first part that does not fit, by its name, with the numbers`.
 
 use dbd_kernel::extents::{Excess, Part, first_excess};
-use dbd_kernel::{BodyIndex, Geometry};
+use dbd_kernel::{BodyIndex, Geometry, GroupIndex};
 
 use crate::scene::Scene;
 use crate::time::display;
@@ -37,7 +37,7 @@ impl Misfit {
     #[must_use]
     pub fn unnamed<P: Geometry>(excess: &Excess, step: f64) -> Self {
         let body = |body: BodyIndex| format!("body {}", body.0);
-        let group = |group: u16| format!("group {group}");
+        let group = |group: GroupIndex| format!("group {}", group.0);
         Self::of::<P>(excess, step, body, group, |input| format!("input {input}"))
     }
 
@@ -45,7 +45,7 @@ impl Misfit {
         excess: &Excess,
         step: f64,
         body: impl Fn(BodyIndex) -> String,
-        group: impl Fn(u16) -> String,
+        group: impl Fn(GroupIndex) -> String,
         input: impl Fn(u16) -> String,
     ) -> Self {
         let value = excess.value;
@@ -107,9 +107,11 @@ pub fn check_extents<P: Geometry>(scene: &Scene, step: f64) -> Result<(), Misfit
         None => format!("{kind} {row}"),
     };
     let body = |body: BodyIndex| named("body", scene.body_names.get(body.row()), body.0);
-    let group = |row: u16| match joint_of(scene, row.into()) {
+    let group = |group: GroupIndex| match joint_of(scene, group.row()) {
         Some(joint) => format!("the joint `{joint}`"),
-        None => raw_of(scene, row.into()).map_or_else(|| format!("group {row}"), str::to_owned),
+        None => {
+            raw_of(scene, group.row()).map_or_else(|| format!("group {}", group.0), str::to_owned)
+        }
     };
     let input =
         |row: u16| named("input", scene.inputs.get(usize::from(row)).map(|input| &input.name), row);

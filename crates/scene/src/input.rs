@@ -3,7 +3,7 @@
 //! `table => input of the model`. A type is one row of [`TYPES`]: its keys and its reader.
 
 use dbd_kernel::elements::input::InputKind;
-use dbd_kernel::{BodyIndex, F64, Geometry, InputIndex, LoadFrame, Vec3};
+use dbd_kernel::{BodyIndex, F64, Geometry, GroupIndex, InputIndex, LoadFrame, Vec3};
 
 use crate::assembly::NoAnchor;
 use crate::between::BodyName;
@@ -214,7 +214,7 @@ fn actuator(table: &Table<'_>, known: &mut Known<'_>) -> Result<InputKind<F64>, 
         let help = "name a tsda with `free_length` > 0, along which the actuator pulls";
         return Err(table.refuse_value("target", &problem, help));
     }
-    Ok(InputKind::Actuator { group: group as u16, element: 0 })
+    Ok(InputKind::Actuator { group: GroupIndex(group as u16), element: 0 })
 }
 
 fn gravity(table: &Table<'_>, _: &mut Known<'_>) -> Result<InputKind<F64>, SceneError> {

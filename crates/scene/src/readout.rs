@@ -4,7 +4,7 @@
 //! torsion spring has the same axis, one without stiffness is added to count revolutions.
 
 use dbd_kernel::readouts::{Readout, Slide};
-use dbd_kernel::{F64, Geometry, LawIndex, Vec3};
+use dbd_kernel::{F64, Geometry, GroupIndex, LawIndex, TorsionIndex, Vec3};
 
 use crate::between::BodyName;
 use crate::columns::Taken;
@@ -242,7 +242,7 @@ fn kind(table: &Table<'_>) -> Result<&'static ReadoutType, SceneError> {
 }
 
 /// The torsion spring about the axis of `target`.
-fn spring(table: &Table<'_>, known: &mut Known<'_>) -> Result<u16, SceneError> {
+fn spring(table: &Table<'_>, known: &mut Known<'_>) -> Result<TorsionIndex, SceneError> {
     let hinge = hinge(table, known)?;
     known.assembly.carrier(&hinge).map_err(|defect| defect.refuse(table))
 }
@@ -311,13 +311,13 @@ fn tsda_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, Scen
             the force as a vector";
         return Err(table.refuse_value("target", &problem, help));
     }
-    Ok(Readout::TsdaForce { group: group as u16, element: 0 })
+    Ok(Readout::TsdaForce { group: GroupIndex(group as u16), element: 0 })
 }
 
 fn joint_force(table: &Table<'_>, known: &Known<'_>) -> Result<Readout<F64>, SceneError> {
     let name = ElementName { elements: known.elements, kinds: Kinds::PULLING };
     let (_, target) = table.required("target", name)?;
-    Ok(Readout::JointForce { group: group_of(target, known) as u16 })
+    Ok(Readout::JointForce { group: GroupIndex(group_of(target, known) as u16) })
 }
 
 /// The group of an element; for a joint the last one, which acts on its second body.

@@ -9,7 +9,7 @@ use dbd_kernel::plant::InputError;
 use dbd_kernel::random::Stream;
 use dbd_kernel::readouts::{Reading, Readout};
 use dbd_kernel::words::{Fnv1a, Word, WordVisitor as _};
-use dbd_kernel::{BodyIndex, Failure, Geometry, InputIndex, Real, Vec3};
+use dbd_kernel::{BodyIndex, Failure, Geometry, InputIndex, Real, TorsionIndex, Vec3};
 use dbd_node::encoder::Counting as _;
 use dbd_node::i2c::I2cPart as _;
 use dbd_node::motor::Bridge as _;
@@ -134,8 +134,9 @@ fn motor<R: Number + Named>() -> Result<u64, Fault> {
         most_duty: 999,
     };
     let motor = Motor::<Float<R>>::new("motor", TORQUE, parameters);
-    let motor =
-        RefCell::new(motor.with_speed(Probe::scalar("rate", Readout::JointRate { spring: 0 })));
+    let motor = RefCell::new(
+        motor.with_speed(Probe::scalar("rate", Readout::JointRate { spring: TorsionIndex(0) })),
+    );
     let duty = |step: usize| {
         let _ = motor.with(|motor| {
             motor.set_duty(Channel::Forwards, (step * 37 % 1_000) as u16);
@@ -154,8 +155,10 @@ fn motor<R: Number + Named>() -> Result<u64, Fault> {
 fn encoder<R: Number + Named>() -> Result<u64, Fault> {
     let errors = Errors { noise: 1e-3, walk: 0.01, seed: 3, ..Errors::NONE };
     let parameters = EncoderParameters { every: 2, errors, ..EncoderParameters::at_joint(16_384) };
-    let probe =
-        Probe::<Float<R>>::scalar("encoder", Readout::JointAngle { spring: 0, offset: R::ZERO });
+    let probe = Probe::<Float<R>>::scalar(
+        "encoder",
+        Readout::JointAngle { spring: TorsionIndex(0), offset: R::ZERO },
+    );
     let chip = RefCell::new(As5047p::new(Encoder::<_, 2>::new(probe, parameters)));
     turned::<R, _>(
         &chip,

@@ -128,7 +128,7 @@ pub fn of_noise(
         column = columns.end;
         let (noise, forces, unit) = match info.readout {
             Readout::JointForce { group } => {
-                let owner = scene.joints.iter().position(|j| j.groups.contains(&group.into()));
+                let owner = scene.joints.iter().position(|j| j.groups.contains(&group.row()));
                 let of = |element: &&JointElement| Some(element.joint) == owner;
                 (noise(elements.iter().filter(of), &places), columns, "N")
             }

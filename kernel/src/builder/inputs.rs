@@ -58,7 +58,7 @@ impl<
                 self.check_pair([*a, *b])?;
             }
             InputKind::Actuator { group, element } => {
-                let known = self.groups.get(*group as usize);
+                let known = self.groups.get(group.row());
                 let there = known.is_some_and(|g| (*element as usize) < g.elements());
                 check(there, Quantity::Arms)?;
             }

@@ -5,7 +5,7 @@
 
 use crate::elements::load::LoadFrame;
 use crate::geometry::Geometry;
-use crate::index::BodyIndex;
+use crate::index::{BodyIndex, GroupIndex};
 use crate::real::Real;
 use crate::space::Linear as _;
 
@@ -58,7 +58,7 @@ pub enum InputKind<P: Geometry> {
     /// A tension \[N\] along a TSDA in addition to its spring's: an actuator.
     Actuator {
         /// The TSDA's group.
-        group: u16,
+        group: GroupIndex,
         /// Its index in the group.
         element: u16,
     },

@@ -5,7 +5,7 @@
 
 use crate::elements::input::Knot;
 use crate::geometry::Geometry;
-use crate::index::{BodyIndex, InputIndex};
+use crate::index::{BodyIndex, InputIndex, TorsionIndex};
 use crate::real::Real;
 
 /// A source of a model: an input and its law. The input has no knots of its own.
@@ -60,14 +60,14 @@ pub enum Sensor<P: Geometry> {
     /// \[rad\] the torsion angle of a torsion spring, unwrapped.
     Angle {
         /// Its index among the torsion springs.
-        spring: u16,
+        spring: TorsionIndex,
         /// \[rad\] the value at a torsion angle of 0.
         offset: P::Real,
     },
     /// \[rad/s\] the rate of that torsion angle.
     Rate {
         /// The spring's index among the torsion springs.
-        spring: u16,
+        spring: TorsionIndex,
     },
     /// \[m\] the position of a point of a body, world.
     Point {

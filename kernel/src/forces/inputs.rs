@@ -31,7 +31,7 @@ fn bodies_of<P: Geometry, T: Terms<P>>(
         InputKind::Force { body, .. } | InputKind::Torque { body, .. } => [body, world],
         InputKind::JointTorque { a, b, .. } | InputKind::JointForce { a, b, .. } => [a, b],
         InputKind::Actuator { group, .. } => {
-            model.groups.get(group as usize).map_or([world; 2], |group| [group.a, group.b])
+            model.groups.get(group.row()).map_or([world; 2], |group| [group.a, group.b])
         }
         // Others act on all bodies or on none; listed, they would leave a trap in the target's jump table.
         _ => [world; 2],
@@ -185,7 +185,7 @@ fn actuator<P: Geometry, T: Terms<P>>(
     value: P::Real,
 ) -> Option<ForcePair<P::Space>> {
     let InputKind::Actuator { group, element } = kind else { return None };
-    let row = group as usize;
+    let row = group.row();
     let element = placed(model, places, (row, model.groups.get(row)?), element as usize)?;
     let d = element.deformation.displacement;
     let force = d * (value * d.dot(d).sqrt().reciprocal_or_zero());
@@ -202,7 +202,7 @@ pub(crate) fn with_actuators<P: Geometry, T: Terms<P>>(
     mut force: P::Vector,
 ) -> P::Vector {
     for (input, signal) in model.inputs.iter().zip(places.signals) {
-        if matches!(input.kind, InputKind::Actuator { group, .. } if group as usize == row)
+        if matches!(input.kind, InputKind::Actuator { group, .. } if group.row() == row)
             && let Some(force_pair) = actuator(model, places, input.kind, signal.value)
         {
             force = force + force_pair.force;

@@ -38,7 +38,7 @@ use crate::elements::gravity;
 use crate::elements::load::LoadFrame;
 use crate::forces::two_points::two_points;
 use crate::geometry::Geometry;
-use crate::index::LawIndex;
+use crate::index::{GroupIndex, LawIndex};
 use crate::laws::{self, Laws};
 use crate::model::{FrameOf, Group, Law, LawsIn, ModelOwner, ModelRef, SpaceOf, Terms};
 use crate::pose::{End, Places, place_bodies};
@@ -233,8 +233,8 @@ struct Groups<'s, 'm, P: Geometry, T: Terms<P>> {
 }
 
 impl<P: Geometry, T: Terms<P>> laws::GroupForces<P> for Groups<'_, '_, P, T> {
-    fn force(&self, group: u16) -> P::Vector {
-        let Some(group) = self.model.groups.get(usize::from(group)) else { return P::Vector::ZERO };
+    fn force(&self, group: GroupIndex) -> P::Vector {
+        let Some(group) = self.model.groups.get(group.row()) else { return P::Vector::ZERO };
         let (places, known) = (self.places, (&[][..], self.rests));
         let force_pair =
             force_pair_out_of_line::<P, T, DampersLeft>(self.model, places, known, group);

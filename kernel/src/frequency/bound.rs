@@ -130,7 +130,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
         }
         for (row, input) in self.view.inputs.iter().enumerate() {
             let InputKind::Actuator { group, .. } = input.kind else { continue };
-            if let Some(group) = self.view.groups.get(group as usize) {
+            if let Some(group) = self.view.groups.get(group.row()) {
                 visit(Mount::Actuator(row), [group.a, group.b]);
             }
         }
@@ -212,7 +212,7 @@ impl<P: Geometry, T: Terms<P>> Pose<'_, '_, P, T> {
                     return;
                 };
                 let InputKind::Actuator { group, element } = input.kind else { return };
-                let row = group as usize;
+                let row = group.row();
                 let group = view.groups.get(row);
                 let element = group.and_then(|g| placed(view, places, (row, g), element as usize));
                 let Some(e) = element else { return };

@@ -6,6 +6,7 @@
 
 use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
+use crate::index::GroupIndex;
 use crate::laws::end::Seen;
 use crate::laws::hinge_friction::{HingeFriction, TurnSlip};
 use crate::laws::interaction::{Damper, Interaction, Quantity, Springs, Wrong};
@@ -175,7 +176,7 @@ macro_rules! with_load {
                 &[Quantity { name: "slip", unit: $unit }, Quantity { name: "load", unit: $effort }];
 
             #[inline(always)]
-            fn group(&self) -> u16 {
+            fn group(&self) -> GroupIndex {
                 self.joint
             }
 

@@ -4,7 +4,7 @@ use crate::elements::share::Share;
 use crate::force_pair::Direction;
 use crate::force_pair::ForcePair;
 use crate::geometry::{F64, Geometry};
-use crate::index::BodyIndex;
+use crate::index::{BodyIndex, GroupIndex};
 use crate::laws::branch::Branch;
 use crate::laws::end::Seen;
 use crate::laws::kind::{Field, FieldSink, FieldSource};
@@ -255,8 +255,8 @@ pub trait Interaction<P: Geometry>: Constants<P> {
 
     /// The group of the model whose force [`Self::bear`] gives it.
     #[inline(always)]
-    fn group(&self) -> u16 {
-        u16::MAX
+    fn group(&self) -> GroupIndex {
+        GroupIndex(u16::MAX)
     }
 
     /// Updates its memory by the force \[N\] of the springs of [`Self::group`] between its bodies, world axes, at the

@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 
 use crate::geometry::{F64, Geometry};
-use crate::index::InputIndex;
+use crate::index::{GroupIndex, InputIndex};
 use crate::laws::curve::Curve;
 use crate::laws::hinge::Hinge;
 use crate::laws::ldl::Ldl;
@@ -163,26 +163,26 @@ impl Kind for Signal {
     }
 }
 
-/// A group of the model whose force the law bears: `u16`, see
+/// A group of the model whose force the law bears: [`GroupIndex`], see
 /// [`Interaction::group`](crate::laws::Interaction::group).
 #[derive(Clone, Copy, Debug)]
 pub struct JointGroup;
 
 impl Kind for JointGroup {
-    type In<P: Geometry> = u16;
+    type In<P: Geometry> = GroupIndex;
     const NAME: &'static str = "joint";
 
-    fn rounded<P: Geometry>(of: &u16) -> u16 {
+    fn rounded<P: Geometry>(of: &GroupIndex) -> GroupIndex {
         *of
     }
-    fn visit<P: Geometry>(of: &u16, visitor: &mut dyn WordVisitor) {
-        visitor.word(Word::I32(i32::from(*of)));
+    fn visit<P: Geometry>(of: &GroupIndex, visitor: &mut dyn WordVisitor) {
+        visitor.word(Word::I32(i32::from(of.0)));
     }
-    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<u16> {
-        source.count(field).and_then(|group| u16::try_from(group).ok())
+    fn read_from(field: &Field, source: &mut dyn FieldSource) -> Option<GroupIndex> {
+        source.count(field).and_then(|group| u16::try_from(group).ok()).map(GroupIndex)
     }
-    fn write_to(of: &u16, field: &Field, sink: &mut dyn FieldSink) {
-        sink.count(field, u32::from(*of));
+    fn write_to(of: &GroupIndex, field: &Field, sink: &mut dyn FieldSink) {
+        sink.count(field, u32::from(of.0));
     }
 }
 

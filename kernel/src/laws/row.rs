@@ -3,7 +3,7 @@
 use crate::elements::share::Share;
 use crate::force_pair::ForcePair;
 use crate::geometry::Geometry;
-use crate::index::BodyIndex;
+use crate::index::{BodyIndex, GroupIndex};
 use crate::laws::branch::Branch;
 use crate::laws::branches::Branches;
 use crate::laws::end::{Instant, Seen};
@@ -13,7 +13,7 @@ use crate::words::WordVisitor;
 /// The forces of a model's groups at the pose of an evaluation.
 pub trait GroupForces<P: Geometry> {
     /// \[N\] the force of the springs of a group on its second body, world axes; 0 where the model has no such group.
-    fn force(&self, group: u16) -> P::Vector;
+    fn force(&self, group: GroupIndex) -> P::Vector;
 }
 
 /// The options of an evaluation of laws.

@@ -210,8 +210,8 @@ impl<
                     check_pair(*a, *b, BODIES);
                 }
                 InputKind::Actuator { group, element } => {
-                    assert!((*group as usize) < GROUPS, "the group of an actuator does not exist");
-                    let elements = self.groups[*group as usize].elements();
+                    assert!((group.row()) < GROUPS, "the group of an actuator does not exist");
+                    let elements = self.groups[group.row()].elements();
                     assert!(
                         (*element as usize) < elements,
                         "the element of an actuator does not exist"

@@ -13,8 +13,8 @@ use dbd_kernel::readouts::Readout;
 use dbd_kernel::space::Linear as _;
 use dbd_kernel::{
     BlanesMoanS6, BodyIndex, BodyState, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Geometry,
-    InputIndex, Leapfrog, Load, LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme,
-    SemiImplicitEuler, State, frequency,
+    GroupIndex, InputIndex, Leapfrog, Load, LoadFrame, ModelOwner, Pefrl, Plant, Rk4, Scheme,
+    SemiImplicitEuler, State, TorsionIndex, frequency,
 };
 use fastrand::Rng;
 
@@ -176,12 +176,12 @@ fn readouts<P: Geometry, S: Scheme>(
     let (row, element) = (u16::from(byte(bytes) % 7), u16::from(byte(bytes) % 10));
     let point = P::local_from_f64(triple(bytes, wildness));
     for readout in [
-        Readout::JointAngle { spring: row, offset: dbd_kernel::Real::from_f64(0.5) },
-        Readout::JointRate { spring: row },
+        Readout::JointAngle { spring: TorsionIndex(row), offset: dbd_kernel::Real::from_f64(0.5) },
+        Readout::JointRate { spring: TorsionIndex(row) },
         Readout::Point { body, point },
         Readout::PointVelocity { body, point },
-        Readout::TsdaForce { group: row, element },
-        Readout::JointForce { group: row },
+        Readout::TsdaForce { group: GroupIndex(row), element },
+        Readout::JointForce { group: GroupIndex(row) },
         Readout::Imu { body, point },
         Readout::Input { input: InputIndex(row) },
     ] {
@@ -329,7 +329,7 @@ fn add_input<P: Geometry>(model: &mut Model<P>, bytes: &mut Unstructured<'_>, wi
         1 => InputKind::Torque { body: one, axis, frame },
         2 => InputKind::JointTorque { a: one, b: body(bytes), axes: [axis; 2] },
         3 => InputKind::Actuator {
-            group: u16::from(byte(bytes) % 4),
+            group: GroupIndex(u16::from(byte(bytes) % 4)),
             element: u16::from(byte(bytes) % 4),
         },
         4 => InputKind::Anchor { direction },

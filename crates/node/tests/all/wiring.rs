@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use crate::shaft::{ANGLE, IMU, POINT, RATE, Shaft, TORQUE};
 use dbd_kernel::plant::InputError;
 use dbd_kernel::readouts::Readout;
-use dbd_kernel::{BodyIndex, F32, InputIndex};
+use dbd_kernel::{BodyIndex, F32, InputIndex, TorsionIndex};
 use dbd_node::{
     Active, As5047p, BridgePin, Channel, DutyEnd, Encoder, EncoderParameters, EndStop, Errors,
     Fault, I2cEnd, ImuParameters, Motor, MotorParameters, Mpu6000, Node, NodeDelay, Part, Probe,
@@ -42,7 +42,7 @@ fn a_part_that_is_wired_to_nothing_ends_the_start_with_its_name() {
     let motor = refused(Motor::<F32>::new("lift", nowhere, IDEAL));
     assert_eq!(motor, error("lift", Problem::Input(InputError::Unknown(nowhere))));
     assert_eq!(motor.to_string(), "`lift`: the model has no input 3");
-    let gone = Readout::JointAngle { spring: 9, offset: 0.0 };
+    let gone = Readout::JointAngle { spring: TorsionIndex(9), offset: 0.0 };
     let seen = refused(encoder(Probe::scalar("elbow", gone)));
     assert_eq!(seen, error("elbow", Problem::NoReadout));
     assert_eq!(seen.to_string(), "`elbow`: the model has no such read-out");

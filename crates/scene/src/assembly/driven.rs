@@ -2,7 +2,7 @@
 
 use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::elements::source::{Source, SourceLaw};
-use dbd_kernel::{BodyIndex, F64, InputIndex, Vec3};
+use dbd_kernel::{BodyIndex, F64, InputIndex, TorsionIndex, Vec3};
 
 use crate::assembly::{Assembly, Defect, index};
 use crate::drive::{Curve, Drive};
@@ -42,7 +42,7 @@ impl Assembly {
     }
 
     /// The torsion spring that counts a hinge's revolutions: an existing one, or a new one without stiffness.
-    pub(crate) fn carrier(&mut self, hinge: &Hinge) -> Result<u16, Defect> {
+    pub(crate) fn carrier(&mut self, hinge: &Hinge) -> Result<TorsionIndex, Defect> {
         let same = |axis: Vec3<f64>| 1.0 - axis.dot(hinge.axis) < SAME_AXIS;
         let between = self.torsions_between.get(&[hinge.a.0, hinge.b.0]);
         let mut rows = between.into_iter().flatten().copied();
@@ -54,7 +54,7 @@ impl Assembly {
             let axis_w = self.direction_w(hinge.a, hinge.axis);
             self.add_torsion_spring(&pair, axis_w, spring, 0.0)?;
         }
-        index(row, 0, "torsion springs")
+        index(row, 0, "torsion springs").map(TorsionIndex)
     }
 
     /// The number of torsion springs, including those that only count revolutions.

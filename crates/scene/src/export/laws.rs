@@ -85,6 +85,7 @@ impl<P: SourceGeometry> FieldSink for Fields<P> {
     fn count(&mut self, field: &Field, value: u32) {
         let text = match field.kind {
             "signal" => format!("dbd_kernel::generated::InputIndex({value})"),
+            "joint" => format!("dbd_kernel::generated::GroupIndex({value})"),
             _ => value.to_string(),
         };
         self.push(field, &text);

@@ -154,7 +154,7 @@ mod tests {
             "pub const TWO_BODIES_READOUT_ANGLE_F32: Readout<F32> = ",
             "pub const TWO_BODIES_JOINT_W1_BODIES: [BodyIndex; 2] = [BodyIndex::WORLD, BodyIndex(0)];",
             "pub const TWO_BODIES_JOINT_W1_GROUPS: core::ops::Range<u16> = 0..1;",
-            "pub const TWO_BODIES_JOINT_W1_FORCE_F32: Readout<F32> = Readout::JointForce { group: 0 };",
+            "pub const TWO_BODIES_JOINT_W1_FORCE_F32: Readout<F32> = Readout::JointForce { group: GroupIndex(0) };",
             "pub type TwoBodiesPlantF32 = dbd_kernel::generated::Plant<&'static TwoBodiesF32, dbd_kernel::Leapfrog>;",
             "pub type TwoBodiesPlant = TwoBodiesPlantF32;",
             "pub fn plant() -> Result<TwoBodiesPlant, dbd_kernel::generated::PlantError> {",

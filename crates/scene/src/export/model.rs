@@ -4,12 +4,12 @@
 
 use std::fmt::{Display, Write};
 
-use dbd_kernel::F64;
 use dbd_kernel::geometry::Float;
 use dbd_kernel::laws::Laws as _;
 use dbd_kernel::model::ModelOwner;
 use dbd_kernel::planar::Planar;
 use dbd_kernel::readouts::Readout;
+use dbd_kernel::{F64, GroupIndex};
 
 use super::laws;
 use super::names::{UNUSED, constant_name, constant_names, quoted, type_name};
@@ -141,7 +141,8 @@ pub(super) fn joint_forces<P: SourceGeometry>(scene: &Scene) -> String {
     let axes = if scene.planar.is_some() { "the plane's axes" } else { "world" };
     let ty = P::name();
     let line = |(joint, constant): (&crate::JointInfo, String)| {
-        let force = Readout::<P>::JointForce { group: joint.groups.end.checked_sub(1)? as u16 };
+        let force =
+            Readout::<P>::JointForce { group: GroupIndex(joint.groups.end.checked_sub(1)? as u16) };
         Some(format!(
             "/// \\[N\\] the force of the joint {} on its second body, {axes}.\n\
              {UNUSED}pub const {name}_JOINT_{constant}_FORCE_{precision}: Readout<{ty}> = {};\n",

@@ -136,7 +136,7 @@ pub(super) fn input<P: SourceGeometry>(input: &Input<P>) -> String {
             P::vector(axis),
         ),
         InputKind::Actuator { group, element } => {
-            format!("Actuator {{ group: {group}, element: {element} }}")
+            format!("Actuator {{ group: {group:?}, element: {element} }}")
         }
         InputKind::Gravity { direction } => {
             format!("Gravity {{ direction: {} }}", P::vector(direction))
@@ -177,9 +177,9 @@ pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {
     };
     let kind = match readout {
         Readout::JointAngle { spring, offset } => {
-            format!("JointAngle {{ spring: {spring}, offset: {} }}", offset.number())
+            format!("JointAngle {{ spring: {spring:?}, offset: {} }}", offset.number())
         }
-        Readout::JointRate { spring } => format!("JointRate {{ spring: {spring} }}"),
+        Readout::JointRate { spring } => format!("JointRate {{ spring: {spring:?} }}"),
         Readout::JointTravel { slide: of, offset } => {
             format!("JointTravel {{ slide: {}, offset: {} }}", slide(of), offset.number())
         }
@@ -189,9 +189,9 @@ pub(super) fn readout<P: SourceGeometry>(readout: &Readout<P>) -> String {
         Readout::Point { body, point } => at("Point", *body, point),
         Readout::PointVelocity { body, point } => at("PointVelocity", *body, point),
         Readout::TsdaForce { group, element } => {
-            format!("TsdaForce {{ group: {group}, element: {element} }}")
+            format!("TsdaForce {{ group: {group:?}, element: {element} }}")
         }
-        Readout::JointForce { group } => format!("JointForce {{ group: {group} }}"),
+        Readout::JointForce { group } => format!("JointForce {{ group: {group:?} }}"),
         Readout::Imu { body, point } => at("Imu", *body, point),
         Readout::Input { input } => format!("Input {{ input: InputIndex({}) }}", input.0),
         Readout::Law { law, quantity } => {
@@ -215,9 +215,9 @@ fn sensor<P: SourceGeometry>(sensor: &Sensor<P>) -> String {
     };
     let kind = match sensor {
         Sensor::Angle { spring, offset } => {
-            format!("Angle {{ spring: {spring}, offset: {} }}", offset.number())
+            format!("Angle {{ spring: {spring:?}, offset: {} }}", offset.number())
         }
-        Sensor::Rate { spring } => format!("Rate {{ spring: {spring} }}"),
+        Sensor::Rate { spring } => format!("Rate {{ spring: {spring:?} }}"),
         Sensor::Point { body, point } => at("Point", *body, point),
         Sensor::Velocity { body, point } => at("Velocity", *body, point),
     };

@@ -8,7 +8,7 @@ use crate::scene::Scene;
 pub(super) fn check(scene: &Scene, warnings: &mut Vec<Warning>) {
     for info in &scene.readouts {
         let Readout::JointForce { group } = info.readout else { continue };
-        let number = usize::from(group);
+        let number = group.row();
         let Some(joint) = scene.joints.iter().find(|joint| joint.groups.contains(&number)) else {
             continue;
         };

@@ -124,7 +124,7 @@ fn place(part: Part, scene: &Scene) -> Option<(&'static str, usize)> {
         Part::TorsionSpring(row) => {
             let counts = |readout: &Readout<dbd_kernel::F64>| {
                 matches!(readout, Readout::JointAngle { spring, .. } | Readout::JointRate { spring }
-                    if usize::from(*spring) == row)
+                    if spring.row() == row)
             };
             let readout = scene.readouts.iter().position(|info| counts(&info.readout));
             readout.map(|row| ("readout", row))

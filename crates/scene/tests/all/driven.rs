@@ -3,7 +3,7 @@
 use dbd_kernel::elements::input::InputKind;
 use dbd_kernel::elements::source::{Source, SourceLaw};
 use dbd_kernel::readouts::Readout;
-use dbd_kernel::{BodyIndex, InputIndex, LoadFrame, Vec3};
+use dbd_kernel::{BodyIndex, GroupIndex, InputIndex, LoadFrame, TorsionIndex, Vec3};
 use dbd_scene::Scene;
 
 const BODIES: &str = r#"
@@ -121,7 +121,7 @@ fn inputs_become_what_their_types_say() {
     assert_eq!((a, b, inputs[2].value), (BodyIndex(0), BodyIndex(1), 3.0));
     near(axis, [1.0, 0.0, 0.0]);
     // The groups are the elbow, the ball, two of the cross, the cord and the rail.
-    assert_eq!(inputs[3].kind, InputKind::Actuator { group: 4, element: 0 });
+    assert_eq!(inputs[3].kind, InputKind::Actuator { group: GroupIndex(4), element: 0 });
     let InputKind::JointTorque { a, b, axes: [axis, _] } = inputs[4].kind else {
         panic!("a ball's torque")
     };
@@ -246,7 +246,7 @@ fn an_angle_is_counted_by_a_torsion_spring_that_is_there_or_added() {
         Readout::JointAngle { spring, .. } | Readout::JointRate { spring } => spring,
         other => panic!("{other:?}"),
     });
-    assert_eq!(springs.collect::<Vec<_>>(), [0, 0, 1, 1]);
+    assert_eq!(springs.collect::<Vec<_>>(), [0, 0, 1, 1].map(TorsionIndex));
     assert_eq!((scene.torsion_springs(), scene.model.torsions.len()), (1, 2));
     assert_eq!(scene.torsion_names, ["torsion_spring `coil` (arm–hand)", "readout `ball`"]);
     let added = &scene.model.torsions[1];
@@ -278,8 +278,8 @@ fn read_outs_become_what_their_types_say() {
         [
             Readout::Point { body: BodyIndex(1), point },
             Readout::PointVelocity { body: BodyIndex(0), point: Vec3::ZERO },
-            Readout::TsdaForce { group: 4, element: 0 },
-            Readout::JointForce { group: 3 },
+            Readout::TsdaForce { group: GroupIndex(4), element: 0 },
+            Readout::JointForce { group: GroupIndex(3) },
             Readout::Imu { body: BodyIndex(0), point: Vec3::ZERO },
             Readout::Input { input: InputIndex(0) },
         ]
@@ -307,7 +307,10 @@ fn names_are_looked_up_and_the_nearest_is_offered() {
             + &readout("angle", "type = \"joint_angle\"\ntarget = \"elbow\"")),
     );
     assert_eq!(scene.input("drive"), Ok(InputIndex(0)));
-    assert_eq!(scene.readout("angle"), Ok(Readout::JointAngle { spring: 0, offset: 0.0 }));
+    assert_eq!(
+        scene.readout("angle"),
+        Ok(Readout::JointAngle { spring: TorsionIndex(0), offset: 0.0 })
+    );
     assert_eq!(
         scene.input("drvie").unwrap_err().to_string(),
         "the scene `driven` has no input `drvie`; did you mean `drive`?"

@@ -4,7 +4,7 @@
 
 use dbd_kernel::elements::input::Knot;
 use dbd_kernel::elements::source::Sensor as KernelSensor;
-use dbd_kernel::{F64, LoadFrame};
+use dbd_kernel::{F64, LoadFrame, TorsionIndex};
 use nalgebra::Vector3;
 
 use crate::reference::elements::{Element, Pair, TorsionSpring, push, turn};
@@ -58,7 +58,7 @@ impl Sensor {
             instant.place(&Point { end: End::Body(row), local: Vector3::from(local) })
         };
         let along = |v: Vector3<f64>| Vector3::from(self.weights).dot(&v);
-        let torsion_angle = |spring: u16| torsions[usize::from(spring)].torsion_angle(instant);
+        let torsion_angle = |spring: TorsionIndex| torsions[spring.row()].torsion_angle(instant);
         let reading = match self.sensor {
             KernelSensor::Angle { spring, offset } => torsion_angle(spring).angle + offset,
             KernelSensor::Rate { spring } => torsion_angle(spring).rate,

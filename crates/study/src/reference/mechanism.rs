@@ -287,7 +287,7 @@ fn input_kind<T: Terms<F64>>(
             InputKind::JointForce(end(a), point, Vector3::from(axis.to_f64()))
         }
         KernelInput::Actuator { group, element } => {
-            InputKind::Actuator(pair(model, &model.groups[usize::from(group)], element.into()))
+            InputKind::Actuator(pair(model, &model.groups[group.row()], element.into()))
         }
         KernelInput::Gravity { direction } => {
             let masses = model.bodies.iter().map(|body| body.mass).collect();

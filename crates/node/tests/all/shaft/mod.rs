@@ -5,14 +5,14 @@
 
 use dbd_kernel::plant::InputError;
 use dbd_kernel::readouts::{Reading, Readout};
-use dbd_kernel::{BodyIndex, Cause, F32, Failure, InputIndex, Vec3};
+use dbd_kernel::{BodyIndex, Cause, F32, Failure, InputIndex, TorsionIndex, Vec3};
 use dbd_node::Machine;
 
 /// \[s\].
 pub const STEP: f64 = 1.0 / 1024.0;
 pub const TORQUE: InputIndex = InputIndex(0);
-pub const ANGLE: Readout<F32> = Readout::JointAngle { spring: 0, offset: 0.0 };
-pub const RATE: Readout<F32> = Readout::JointRate { spring: 0 };
+pub const ANGLE: Readout<F32> = Readout::JointAngle { spring: TorsionIndex(0), offset: 0.0 };
+pub const RATE: Readout<F32> = Readout::JointRate { spring: TorsionIndex(0) };
 /// Its y is the angle.
 pub const POINT: Readout<F32> =
     Readout::Point { body: BodyIndex(0), point: Vec3::new(0.0, 0.0, 0.0) };
@@ -47,8 +47,10 @@ impl Machine for Shaft {
 
     fn read(&self, readout: &Readout<F32>) -> Option<Reading<f32>> {
         match *readout {
-            Readout::JointAngle { spring: 0, .. } => Some(Reading::Scalar(self.angle)),
-            Readout::JointRate { spring: 0 } => Some(Reading::Scalar(self.rate)),
+            Readout::JointAngle { spring: TorsionIndex(0), .. } => {
+                Some(Reading::Scalar(self.angle))
+            }
+            Readout::JointRate { spring: TorsionIndex(0) } => Some(Reading::Scalar(self.rate)),
             Readout::Point { body: BodyIndex(0), .. } => {
                 Some(Reading::Vector(Vec3::new(0.0, self.angle, 0.0)))
             }

@@ -14,7 +14,7 @@ pub(super) fn raw(scene: &Scene, mechanism: &Mechanism) -> (Vec<SpringMark>, Vec
         .inputs
         .iter()
         .filter_map(|input| match input.kind {
-            InputKind::Actuator { group, .. } => Some(usize::from(group)),
+            InputKind::Actuator { group, .. } => Some(group.row()),
             _ => None,
         })
         .collect();

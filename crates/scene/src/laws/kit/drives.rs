@@ -2,11 +2,11 @@
 
 use super::tests::{BODIES, end_stop, hinge};
 use super::*;
-use dbd_kernel::InputIndex;
 use dbd_kernel::laws::{
     EndStop, HingeDrive, HingeDriveDq, HingeDriveFriction, HingeFrictionLoad, HingeServo,
     SlideDrive, SlideDriveFriction, SlideFrictionLoad, SlideServo,
 };
+use dbd_kernel::{GroupIndex, InputIndex};
 
 #[test]
 fn drives_keep_what_laws_promise() {
@@ -144,7 +144,7 @@ fn friction_with_a_load_keeps_what_laws_promise() {
     let turn = HingeFrictionLoad {
         bodies,
         axis: hinge(),
-        joint: 0,
+        joint: GroupIndex(0),
         mu,
         radius,
         force,
@@ -160,7 +160,7 @@ fn friction_with_a_load_keeps_what_laws_promise() {
         bodies,
         points,
         axis: normal,
-        joint: 0,
+        joint: GroupIndex(0),
         mu,
         force,
         coulomb: 4.0,
