@@ -6,7 +6,7 @@ pub mod results;
 #[cfg(feature = "systems")]
 mod systems;
 #[cfg(feature = "systems")]
-pub use systems::{Bench, free_ring, hung_ring};
+pub use systems::{Bench, free_ring, hung_ring, uneven_ring};
 
 /// Pages whose programs compile. The README's stand in the firmware, which has what they include.
 macro_rules! pages {

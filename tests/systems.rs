@@ -19,24 +19,27 @@ fn local<P: Geometry>(model: &Bench<P>, body: BodyIndex, points: &[[f64; 3]]) ->
     points.iter().map(turn).collect()
 }
 
-/// Joins two bodies at a world point: by a revolute about z, whose ring is out of its mid plane so that it is no point
-/// with an axis, or by a spherical joint.
+/// Joins two bodies at a world point: by a revolute about z with its ring \[m\] out of the mid plane, or by a spherical
+/// joint.
 fn join<P: Geometry>(
     model: &mut Bench<P>,
     between: [BodyIndex; 2],
     at: [f64; 3],
-    revolute: bool,
+    revolute: Option<f64>,
     damping: f64,
 ) {
     let shifted = |d: [f64; 3]| [at[0] + d[0], at[1] + d[1], at[2] + d[2]];
     let ring = |j: u32| {
         let angle = f64::from(j) * 2.0 * std::f64::consts::PI / 3.0;
-        shifted([0.2 * angle.cos(), 0.2 * angle.sin(), if revolute { 0.02 } else { 0.1 }])
+        shifted([0.2 * angle.cos(), 0.2 * angle.sin(), revolute.unwrap_or(0.1)])
     };
-    let centres =
-        if revolute { vec![shifted([0.0, 0.0, -0.2]), shifted([0.0, 0.0, 0.2])] } else { vec![at] };
+    let centres = if revolute.is_some() {
+        vec![shifted([0.0, 0.0, -0.2]), shifted([0.0, 0.0, 0.2])]
+    } else {
+        vec![at]
+    };
     let arms: Vec<_> = (0..3).map(ring).collect();
-    let height: f64 = if revolute { 0.2 } else { 0.1 };
+    let height: f64 = if revolute.is_some() { 0.2 } else { 0.1 };
     let triples = Triples {
         between,
         centres: &local(model, between[0], &centres),
@@ -56,6 +59,10 @@ fn join<P: Geometry>(
 /// Never: the bench has room.
 #[must_use]
 pub fn free_ring<P: Geometry>(damping: f64) -> Bench<P> {
+    free_ring_of(0.0, damping)
+}
+
+fn free_ring_of<P: Geometry>(plane: f64, damping: f64) -> Bench<P> {
     let mut model = Bench::new();
     for i in 0..3_u32 {
         let angle = f64::from(i) * 2.0;
@@ -69,8 +76,8 @@ pub fn free_ring<P: Geometry>(damping: f64) -> Bench<P> {
         model.add_body(1.0 + f64::from(i), inertia, state).unwrap();
     }
     let [a, b, c] = [0, 1, 2].map(BodyIndex);
-    join(&mut model, [a, b], [0.3, 0.5, 0.0], true, damping);
-    join(&mut model, [b, c], [-0.5, 0.1, 0.1], false, damping);
+    join(&mut model, [a, b], [0.3, 0.5, 0.0], Some(plane), damping);
+    join(&mut model, [b, c], [-0.5, 0.1, 0.1], None, damping);
     model.add_tsda([c, a], [[0.1, 0.2, 0.3], [0.0, -0.2, 0.1]], 150.0, damping, 1.5).unwrap();
     model.add_tsda([a, c], [[-0.4, 0.2, 0.3], [0.3, 0.2, 0.1]], 6.0, 0.0, 0.0).unwrap();
     model.add_torsion_spring([a, b], [0.0, 0.0, 1.0], 20.0, damping * 0.1, 3.0).unwrap();
@@ -89,10 +96,23 @@ pub fn free_ring<P: Geometry>(damping: f64) -> Bench<P> {
 /// Never: the bench has room.
 #[must_use]
 pub fn hung_ring<P: Geometry>(damping: f64) -> Bench<P> {
-    let mut model = free_ring(damping);
+    hung_ring_of(0.0, damping)
+}
+
+/// [`hung_ring`] whose revolutes have their rings out of the mid plane: none is a point with an axis.
+///
+/// # Panics
+/// Never: the bench has room.
+#[must_use]
+pub fn uneven_ring<P: Geometry>(damping: f64) -> Bench<P> {
+    hung_ring_of(0.02, damping)
+}
+
+fn hung_ring_of<P: Geometry>(plane: f64, damping: f64) -> Bench<P> {
+    let mut model = free_ring_of(plane, damping);
     model.set_gravity([0.3, -9.81, 0.5]).unwrap();
     let world = BodyIndex::WORLD;
-    join(&mut model, [world, BodyIndex(0)], [1.1, 0.4, 0.0], true, damping);
+    join(&mut model, [world, BodyIndex(0)], [1.1, 0.4, 0.0], Some(plane), damping);
     let points = [[0.1, 0.2, -0.1], [-0.6, -0.5, 0.2]];
     model.add_tsda([BodyIndex(2), world], points, 100.0, damping, 0.0).unwrap();
     model.add_torsion_spring([world, BodyIndex(0)], [0.0, 0.0, 1.0], 8.0, 0.0, 0.5).unwrap();

@@ -11,7 +11,7 @@ use dbd_kernel::{
 use dbd_scene::{Eliminated, Scene, SceneModel};
 use dbd_study::reference::Mechanism;
 use dbd_study::reference::generalized_alpha::GeneralizedAlpha as Reference;
-use dbd_tests::{hung_ring, run, scene};
+use dbd_tests::{run, scene, uneven_ring};
 
 const SCHEME: GeneralizedAlpha = GeneralizedAlpha::DEFAULT;
 
@@ -47,7 +47,7 @@ fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
 #[test]
 fn the_steps_are_those_of_the_reference() {
     for rho in [0.0, 0.3, 0.5, 0.8] {
-        let ring = hung_ring::<F64>(2.0);
+        let ring = uneven_ring::<F64>(2.0);
         let (mechanism, start) = Mechanism::of_model(&ring);
         let mut reference = Reference::new(&mechanism, start, 1e-3, rho);
         let model = Eliminated::new(&ring).unwrap();

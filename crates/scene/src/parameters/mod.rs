@@ -3,8 +3,8 @@
 //!
 //! `(text, changes) => tables with other values`. A changed value is checked like one in the file; an error points to
 //! the change. In a list of tables the second step of a path is a name, or the number from 1 of an unnamed table; then
-//! follow keys and array indices from 0. A missing key is added to its table, and so is a missing table: then reading the
-//! scene checks whether there may be one.
+//! follow keys and array indices from 0. A missing key is added to its table, and so is a table that none of the fitting
+//! elements has: then reading the scene checks whether there may be one.
 
 mod named;
 mod numbers;
@@ -164,23 +164,15 @@ impl Change {
         let mut steps = self.steps.iter().peekable();
         while let Some((step, place)) = steps.next() {
             let place = self.start + place.start..self.start + place.end;
-            let may_add = match steps.peek() {
-                None => true,
-                Some((Step::Name { .. }, _)) => {
-                    place.start > self.start || TABLES.iter().any(|table| step.fits(table))
-                }
-                Some(_) => false,
-            };
-            let mut next = Vec::new();
+            let last = steps.peek().is_none();
             let mut known: Vec<String> = Vec::new();
-            for (way, node) in ways {
-                for (to, node) in node.children(step, may_add, &mut known) {
-                    let mut way: Vec<To> = way.clone();
-                    way.push(to);
-                    next.push((way, node));
-                }
+            let mut found = follow(&ways, step, last, &mut known);
+            let is_table = matches!(steps.peek(), Some((Step::Name { .. }, _)))
+                && (place.start > self.start || TABLES.iter().any(|table| step.fits(table)));
+            if found.is_empty() && is_table {
+                found = follow(&ways, step, true, &mut Vec::new());
             }
-            if next.is_empty() {
+            if found.is_empty() {
                 let kind = match self.steps.first() {
                     Some((Step::Name { text, .. }, first))
                         if self.start + first.start < place.start =>
@@ -191,10 +183,24 @@ impl Change {
                 };
                 return Err(nothing(source, step, place, kind, &known));
             }
-            ways = next;
+            ways = found;
         }
         Ok(ways.into_iter().map(|(way, _)| way).collect())
     }
+}
+
+/// A way from the document's root, and where it leads.
+type Way<'d> = (Vec<To>, Node<'d>);
+
+/// The ways that go on by a step; with `add` also to keys that their tables lack. Possible names are added to `known`.
+fn follow<'d>(ways: &[Way<'d>], step: &Step, add: bool, known: &mut Vec<String>) -> Vec<Way<'d>> {
+    let mut found = Vec::new();
+    for (way, node) in ways {
+        for (to, node) in node.children(step, add, known) {
+            found.push(([&way[..], &[to]].concat(), node));
+        }
+    }
+    found
 }
 
 /// The start of a step.
@@ -208,10 +214,10 @@ enum Node<'d> {
 
 impl<'d> Node<'d> {
     /// The matches of a step; possible names are added to `known`.
-    fn children(self, step: &Step, may_add: bool, known: &mut Vec<String>) -> Vec<(To, Node<'d>)> {
+    fn children(self, step: &Step, add: bool, known: &mut Vec<String>) -> Vec<(To, Node<'d>)> {
         match self {
-            Self::Table(table) => Self::keys(table, step, may_add, known),
-            Self::Value(DeValue::Table(table)) => Self::keys(table, step, may_add, known),
+            Self::Table(table) => Self::keys(table, step, add, known),
+            Self::Value(DeValue::Table(table)) => Self::keys(table, step, add, known),
             Self::Absent => Self::added(step).into_iter().collect(),
             Self::Value(DeValue::Array(array)) => {
                 let entry = |i: usize| array.get(i).map(|entry| Self::Value(entry.get_ref()));
@@ -244,7 +250,7 @@ impl<'d> Node<'d> {
     fn keys(
         table: &'d DeTable<'d>,
         step: &Step,
-        may_add: bool,
+        add: bool,
         known: &mut Vec<String>,
     ) -> Vec<(To, Node<'d>)> {
         let mut found = Vec::new();
@@ -255,7 +261,7 @@ impl<'d> Node<'d> {
                 found.push((To::Key(key.to_owned()), Self::Value(value.get_ref())));
             }
         }
-        if found.is_empty() && may_add {
+        if found.is_empty() && add {
             found.extend(Self::added(step));
         }
         found

@@ -94,6 +94,8 @@ fn a_pattern_changes_all_that_it_fits_and_the_last_change_holds() {
     let masses: Vec<_> = scene.model.bodies.iter().map(|body| body.mass).collect();
     assert_eq!(masses, [5.0, 6.0, 7.0]);
     assert_eq!(scene.changed.len(), 3 + 2 + 1);
+    // A table that one of them has is not added to the others.
+    assert_eq!(with(&["body.leg*.orientation.angle=1"]).unwrap().changed.len(), 1);
     let last = scene.changed.last().unwrap();
     assert_eq!((last.before.as_deref(), last.now.as_str()), (Some("6"), "7"));
     // What stands in the file is told by its place as ever.
