@@ -272,6 +272,8 @@ mod tests {
         let net: Vec<[u16; 2]> = across.chain(along).collect();
         let plan = Elimination::new(10_000, &net).unwrap();
         assert!(plan.pairs.len() > 65_535, "{}", plan.pairs.len());
+        // As docs/near-rigid.md says.
+        assert_eq!(plan.targets.len() / 1_000_000, 7);
         assert!(plan.plan().fits(10_000, net.into_iter()));
         let all = (0..500).flat_map(|a| (0..a).map(move |b| [a, b])).collect::<Vec<_>>();
         assert_eq!(Elimination::new(500, &all), None);

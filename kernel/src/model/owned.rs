@@ -210,7 +210,7 @@ impl<
                     check_pair(*a, *b, BODIES);
                 }
                 InputKind::Actuator { group, element } => {
-                    assert!((group.row()) < GROUPS, "the group of an actuator does not exist");
+                    assert!(group.row() < GROUPS, "the group of an actuator does not exist");
                     let elements = self.groups[group.row()].elements();
                     assert!(
                         (*element as usize) < elements,
