@@ -237,12 +237,13 @@ impl<'s, S: Space> Mount<'s, S> {
         let [a, b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
         let arms = [a.to_world(lumped_joint.arms[0]), b.to_world(lumped_joint.arms[1])];
         self.hold_point(lumped_joint.point, arms);
-        if lumped_joint.along != S::Real::ZERO {
-            let axis = a.to_world(lumped_joint.axis);
-            self.add(lumped_joint.along, axis, arms.map(|arm| arm.cross(axis)));
-        }
         if S::Real::ZERO < lumped_joint.across {
-            self.hold_axis(lumped_joint.across, a.to_world(lumped_joint.axis));
+            let axis = a.to_world(lumped_joint.axis);
+            self.hold_axis(lumped_joint.across, axis);
+            // No joint in a plane has it.
+            if S::Vector::DIMENSION > 2 && lumped_joint.along != S::Real::ZERO {
+                self.add(lumped_joint.along, axis, arms.map(|arm| arm.cross(axis)));
+            }
         }
     }
 }

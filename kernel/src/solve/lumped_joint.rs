@@ -21,7 +21,8 @@ pub struct LumpedJoint<S: Space> {
     pub(super) axis: S::Vector,
     /// Weight s of the point; 0 for a group that is assembled element by element.
     pub(super) point: S::Real,
-    /// Additional weight t of the point along the axis; 0 where its springs are alike in all directions.
+    /// Additional weight t of the point along the axis; 0 without an axis, in a plane, and where its springs are alike in
+    /// all directions.
     pub(super) along: S::Real,
     /// \[m²\] weight of the axis; 0 without an axis.
     pub(super) across: S::Real,
@@ -115,7 +116,9 @@ fn lumped_joint_of<P: Geometry, T: Terms<P>>(
         P::Space::add_point(point, P::Vector::ZERO, &mut meant);
         P::Space::row(axis, P::Moment::ZERO).add_square(along, &mut meant);
         P::Space::add_across(across, axis, &mut meant);
-        zero < point && Row::<P>::are_near(&found, &meant, P::Real::from_f64(ALIKE) * point)
+        (along == zero || (dimension > 2 && zero < across))
+            && zero < point
+            && Row::<P>::are_near(&found, &meant, P::Real::from_f64(ALIKE) * point)
     })?;
     let [a, b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
     let arms = [a.to_axes(centre[0]), b.to_axes(centre[1])];
