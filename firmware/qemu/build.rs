@@ -210,8 +210,7 @@ fn elements() {
         let planar = (!SPATIAL.contains(&name))
             .then(|| (format!("{name}-planar"), build.clone().set("planar=true")));
         for (name, build) in [(name.to_owned(), build)].into_iter().chain(planar) {
-            let module = export::constant_name(&name).to_lowercase();
-            let source = source_of_written(&build);
+            let (module, source) = (export::constant_name(&name).to_lowercase(), source(&build));
             modules += &format!("/// The scene with `{name}`.\npub mod {module} {{\n{source}}}\n");
             lines += &format!(
                 "            {module} \"{name}\" ELEMENTS_STEP, ELEMENTS_F32: ElementsF32;\n"
@@ -253,8 +252,7 @@ fn laws() {
         let build = build.step(step).precision(precision);
         let module = export::constant_name(&format!("{name}-{precision}")).to_lowercase();
         let constant = export::constant_name(build.file_name().trim_end_matches(".rs"));
-        let source = if name == OWN { source_of_written(&build) } else { source(&build) };
-        let precision = precision.to_uppercase();
+        let (source, precision) = (source(&build), precision.to_uppercase());
         modules += &format!("/// The scene `{name}`.\npub mod {module} {{\n{source}}}\n");
         lines += &format!(
             "            {module} \"{name}\" {constant}_STEP {steps}, {constant}_{precision};\n"
@@ -278,12 +276,11 @@ fn list(name: &str, of: &str, lines: &str) -> String {
 
 /// The source of a scene; where there is none, cargo is told why.
 fn source(build: &Build) -> String {
-    println!("{}", build.watched());
-    source_of_written(build)
-}
-
-/// The same of a scene that this script writes: cargo would take it for changed in every build.
-fn source_of_written(build: &Build) -> String {
+    let out = std::env::var("OUT_DIR").expect("cargo sets OUT_DIR");
+    // Cargo would take a scene that this script writes for changed in every build.
+    if !build.watched().contains(&out) {
+        println!("{}", build.watched());
+    }
     let built = build.source().unwrap_or_else(|error| {
         println!("{}", error.line());
         std::process::exit(1)

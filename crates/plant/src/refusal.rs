@@ -38,7 +38,7 @@ pub enum PlantError {
     Extent(#[from] Misfit),
     /// The scheme has a matrix, which the connections of the bodies fill too far.
     #[error(
-        "the iteration matrix takes more than {} products of blocks",
+        "the factorisation of the iteration matrix takes more than {} products of blocks",
         Elimination::MAX_PRODUCTS
     )]
     #[diagnostic(help("use a scheme without a matrix: --scheme leapfrog"))]

@@ -52,6 +52,7 @@ pub fn fault(scene: &Scene, cause: &Cause) -> String {
                 "the torsion angle of {spring} is undefined: its bodies have turned by 180° across its axis"
             )
         }
+        // Of a later kernel.
         other => format!("{other:?}"),
     }
 }
