@@ -410,7 +410,7 @@ fn the_page_says_what_the_schemes_state() {
             [
                 "nothing; takes the energy of what vibrates, gains some where a body turns by a tenth of a radian \
                  in a step",
-                "the same to 1e-5 m and better: [how](near-rigid.md#third-order)",
+                "the same to 1e-4 m and better: [how](near-rigid.md#third-order)",
             ],
         ),
     ];

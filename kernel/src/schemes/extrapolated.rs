@@ -3,13 +3,11 @@
 //! Richardson (1911): a step h of [`GeneralizedAlpha`] and two of h/2 start from the same state; their errors have the
 //! ratio 4 : 1. A third of their difference, filtered, is added to y₂, the state after the two:
 //!
-//! `e = ⅓·W²·(y₂ − y₁)`, `W = (μ·M + γ·h·C + β·h²·K)⁻¹·μ·M`, `y⁺ = y₂ + e + ³⁄₁₀·(e − e₋)`
+//! `y⁺ = y₂ + ⅓·W²·(y₂ − y₁)`, `W = (μ·M + γ·h·C + β·h²·K)⁻¹·μ·M`
 //!
-//! - W is the identity for slow motion and removes fast motion: the errors of a vibration that the step does not
-//!   resolve do not have the ratio 4 : 1, and without W one of ω·h = 4.2 would grow by 1.2 per step. With W² and ρ∞ = ½
-//!   every vibration decays, at any frequency and damping; with W one of ω·h = 2 would grow by 1.002.
-//! - `e₋` is that of the last step. The difference is of fourth order and removes more from slow motion than
-//!   extrapolation adds to it.
+//! W is the identity for slow motion and removes fast motion: the errors of a vibration that the step does not
+//! resolve do not have the ratio 4 : 1, and without W one of ω·h = 4.2 would grow by 1.2 per step. With W² and ρ∞ = ½
+//! every vibration decays, at any frequency and damping; with W one of ω·h = 1.7 would grow by 1.002.
 //!
 //! The accelerations of the steps h and h/2 are stored separately, because they belong to different times. The step h
 //! comes last, so that its factored matrix can be used for W. Where a step does not resolve the motion, this scheme may
@@ -31,21 +29,19 @@ use crate::schemes::generalized_alpha::{
     GeneralizedAlpha, GeneralizedAlphaMemory, Part, Remembers,
 };
 use crate::solve::MatrixWeights;
-use crate::space::{Linear as _, Moment as _, Space, Turn as _};
+use crate::space::{Linear as _, Moment as _, Turn as _};
 use crate::status::Cause;
 use crate::step::Stepper;
-use crate::words::{WordSource, WordVisitor, Words as _};
+use crate::words::{WordSource, WordVisitor};
 
 /// Generalised-α of third order, three linear solves per step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
 pub struct GeneralizedAlpha3;
 
-/// The extrapolated scheme. Vibration decays only for ρ∞ from 0.47 to 0.62.
+/// The extrapolated scheme. With ρ∞ below 0.45 some vibration grows; above, errors grow with ρ∞.
 const STEPS: GeneralizedAlpha = GeneralizedAlpha::DEFAULT;
-/// The factors of the present difference and of the correction by the last one: together a third.
-const NOW: Constant = Constant::new(1.3 / 3.0);
-const BEFORE: Constant = Constant::new(0.3 / 3.0);
+const THIRD: Constant = Constant::new(1.0 / 3.0);
 
 /// The memory of [`GeneralizedAlpha3`] for one body: accelerations for the next step, poses within the step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,9 +52,6 @@ pub struct GeneralizedAlpha3Memory<P: Geometry> {
     other: GeneralizedAlphaMemory<P>,
     /// The state at the step's start, then that after two half steps.
     kept: BodyState<P>,
-    /// \[m, rad\] the last filtered difference of poses, then that of velocities \[m/s, rad/s\].
-    poses: Increment<P::Space>,
-    velocities: Increment<P::Space>,
 }
 
 impl<P: Geometry> Remembers<P> for GeneralizedAlpha3Memory<P> {
@@ -97,19 +90,11 @@ impl Scheme for GeneralizedAlpha3 {
         for accelerations in [&memory.present, &memory.other] {
             GeneralizedAlpha::visit_memory(accelerations, visitor);
         }
-        for Increment { linear, angular } in [&memory.poses, &memory.velocities] {
-            linear.visit(visitor);
-            angular.visit(visitor);
-        }
     }
 
     fn fill_memory<P: Geometry>(memory: &mut Self::Memory<P>, source: &mut impl WordSource) {
         for accelerations in [&mut memory.present, &mut memory.other] {
             GeneralizedAlpha::fill_memory(accelerations, source);
-        }
-        for Increment { linear, angular } in [&mut memory.poses, &mut memory.velocities] {
-            linear.fill(source);
-            angular.fill(source);
         }
     }
 
@@ -122,12 +107,7 @@ impl Scheme for GeneralizedAlpha3 {
         let begins = !stepper.cache.begun || jumps;
         let (h, half, one) = (stepper.h, P::Real::HALF, P::Real::ONE);
         let states = stepper.workspace.bodies.iter();
-        // The first step has a larger error: the second subtracts what the first adds in advance, so that the sum is
-        // right.
         for (memory, state) in stepper.memory.iter_mut().zip(states) {
-            if !stepper.workspace.cache.begun {
-                *memory = GeneralizedAlpha3Memory::default();
-            }
             memory.kept = *state;
         }
         let parts = [
@@ -166,33 +146,20 @@ fn extrapolate<P: Geometry, T: Terms<P>>(
     stepper: &mut Stepper<'_, '_, P, T, GeneralizedAlpha3Memory<P>>,
 ) {
     exchange(stepper);
+    let third = P::Real::constant(THIRD);
     filter(stepper, |fine, coarse| pose_change::<P>(coarse, fine));
-    stepper.correct(|state, memory, change| {
-        let change = ahead(change, &mut memory.poses);
-        P::translate(&mut state.position, change.linear);
-        rotation::turn_by::<P>(&mut state.orientation, change.angular * P::Real::HALF);
+    stepper.correct(|state, _, change| {
+        P::translate(&mut state.position, change.linear * third);
+        rotation::turn_by::<P>(&mut state.orientation, change.angular * (P::Real::HALF * third));
     });
     filter(stepper, |fine, coarse| Increment {
         linear: P::velocity_change(&coarse.velocity, &fine.velocity),
         angular: P::spin_change(&coarse.angular_velocity, &fine.angular_velocity),
     });
-    stepper.correct(|state, memory, change| {
-        let change = ahead(change, &mut memory.velocities);
-        P::accelerate(&mut state.velocity, change.linear);
-        P::spin_up(&mut state.angular_velocity, change.angular);
+    stepper.correct(|state, _, change| {
+        P::accelerate(&mut state.velocity, change.linear * third);
+        P::spin_up(&mut state.angular_velocity, change.angular * third);
     });
-}
-
-/// `e + ³⁄₁₀·(e − e₋)` of a filtered difference 3·e, which is stored.
-#[inline(always)]
-fn ahead<S: Space>(change: Increment<S>, last: &mut Increment<S>) -> Increment<S> {
-    let [now, before] = [NOW, BEFORE].map(S::Real::constant);
-    let Increment { linear, angular } = *last;
-    *last = change;
-    Increment {
-        linear: change.linear * now - linear * before,
-        angular: change.angular * now - angular * before,
-    }
 }
 
 /// W² times the difference of both results, in place of the wrenches, its rotations in world axes.

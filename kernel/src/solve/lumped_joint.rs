@@ -2,8 +2,10 @@
 //!
 //! `(group at t = 0, weights) => lumped joint`. The springs of most joints are isotropic about an axis e, for displacements
 //! of a centre, `Σ w·u·uᵀ = s·I + t·e·eᵀ`, and for rotations across it, `Σ w·(ρ×u)·(ρ×u)ᵀ = n·(I − e·eᵀ)`: the joint is then
-//! equivalent to this point and this axis in any pose. Any other group is assembled element by element.
+//! equivalent to this point and this axis in any pose, and so is one bushing or revolute joint of bushings. Any other
+//! group is assembled element by element.
 
+use crate::elements::point_law::Deformation;
 use crate::freedoms::Freedoms as _;
 use crate::geometry::Geometry;
 use crate::model::{Group, Law, ModelRef, Terms};
@@ -39,12 +41,40 @@ pub(crate) fn find<P: Geometry, T: Terms<P>>(
     lumped_joints: &mut [LumpedJoint<P::Space>],
 ) {
     for ((number, group), lumped_joint) in model.groups.iter().enumerate().zip(lumped_joints) {
-        let known = T::TSDAS && group.law == Law::Tsda && group.elements() > 1;
-        if known && group.clearance.row().is_none() {
-            *lumped_joint =
-                lumped_joint_of(model, places, (number, group), matrix_weights).unwrap_or_default();
+        if group.clearance.row().is_some() {
+            continue;
         }
+        let found = match group.law {
+            Law::Tsda if T::TSDAS && group.elements() > 1 => {
+                of_springs(model, places, (number, group), matrix_weights)
+            }
+            Law::PointBushing | Law::Revolute if group.elements() == 1 => {
+                of_bushing(model, places, (number, group), matrix_weights)
+            }
+            _ => None,
+        };
+        *lumped_joint = found.unwrap_or_default();
     }
+}
+
+/// That of a bushing or a revolute joint: its own point and axis.
+fn of_bushing<P: Geometry, T: Terms<P>>(
+    model: &ModelRef<'_, P, T>,
+    places: Places<'_, P>,
+    (number, group): (usize, &Group),
+    matrix_weights: MatrixWeights<P::Real>,
+) -> Option<LumpedJoint<P::Space>> {
+    let element = placed(model, places, (number, group), 0)?;
+    let point = weight_of(model, group, (0, element.index), matrix_weights)?;
+    let Deformation { direction, ratio, .. } = element.deformation;
+    let (mut along, mut across) = (P::Real::ZERO, P::Real::ZERO);
+    if T::REVOLUTES && group.law == Law::Revolute {
+        let lever = model.revolutes.get(element.index)?.levers[0];
+        (along, across) = (point * (ratio - P::Real::ONE), point * lever.dot(lever));
+    }
+    let [a, b] = [group.a, group.b].map(|end| End::new(model, places, end, None));
+    let arms = [a.to_axes(element.arm_a), b.to_axes(element.arm_b)];
+    Some(LumpedJoint { arms, axis: a.to_axes(direction), point, along, across })
 }
 
 /// \[m\] from the joint's bodies to the first point of an element.
@@ -52,7 +82,7 @@ fn arms<P: Geometry>(element: &Placed<'_, P::Vector>) -> [P::Vector; 2] {
     [element.arm_a, element.arm_b - element.deformation.displacement]
 }
 
-fn lumped_joint_of<P: Geometry, T: Terms<P>>(
+fn of_springs<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     places: Places<'_, P>,
     (number, group): (usize, &Group),
@@ -131,9 +161,10 @@ type Row<P> = <<P as Geometry>::Space as Space>::Row;
 mod tests {
     use super::*;
     use crate::index::BodyIndex;
-    use crate::model::ModelOwner;
+    use crate::model::{ModelOwner, Plan};
     use crate::model_spec::{ModelSpec, Spring, Start};
     use crate::pose::place_bodies;
+    use crate::solve::{System, assemble};
     use crate::state::State;
 
     const PLACES: [[f64; 3]; 4] =
@@ -216,6 +247,66 @@ mod tests {
         assert!(near(point, k * 3.0 * ring * ring / square), "{point}");
         assert!(near(point + along, k * 3.0 * span * span / (2.0 * square)), "{along}");
         assert!(near(across, k * 3.0 * (span * ring).powi(2) / (4.0 * square)), "{across}");
+    }
+
+    /// Two bodies on revolute joints of bushings about slanted axes, with dampers, and a bushing between them.
+    const BUSHINGS: ModelSpec = {
+        let axes = [[0.6, 0.0, 0.8]; 2];
+        let (first, second) = (BodyIndex(0), BodyIndex(1));
+        let rubber = Spring { stiffness: 2e5, damping: 7.0, free_length: 0.0 };
+        ModelSpec::new()
+            .body(1.0, [0.01, 0.02, 0.03], Start::at([0.5, 0.0, 0.1]))
+            .body(2.0, [0.03, 0.02, 0.01], Start::at([1.2, 0.1, 0.3]))
+            .revolute(
+                [BodyIndex::WORLD, first],
+                [[0.1, 0.0, 0.0], [-0.4, 0.0, -0.1]],
+                axes,
+                [0.05, 1.7],
+                [1e6, 30.0],
+            )
+            .revolute(
+                [second, first],
+                [[-0.3, 0.0, -0.2], [0.4, 0.1, 0.0]],
+                axes,
+                [0.02, 0.3],
+                [3e6, 0.0],
+            )
+            .triples([first, second], &[[0.2, 0.1, 0.3]], &[[-0.5, 0.0, 0.1]], rubber)
+    };
+
+    crate::model!(static ON_BUSHINGS: F64 = BUSHINGS);
+
+    /// The matrix is that of the elements, in every block.
+    #[test]
+    fn bushings_are_their_own_points_and_axes() {
+        let model = ON_BUSHINGS.view();
+        let state = State::initial(&ON_BUSHINGS);
+        let mut frames = ON_BUSHINGS.per_body(Default::default());
+        place_bodies::<crate::F64>(state.bodies.as_ref(), frames.as_mut());
+        let places = Places { frames: frames.as_ref(), signals: state.signals.as_ref() };
+        let matrix_weights = MatrixWeights { mass: 1.5, damping: 1e-3, stiffness: 1e-6 };
+        let mut lumped_joints = [LumpedJoint::default(); 3];
+        find(&model, places, matrix_weights, &mut lumped_joints);
+        assert!(lumped_joints.iter().all(|joint| joint.point > 0.0), "{lumped_joints:?}");
+        let plan = Plan {
+            order: &[[0, 1], [1, 0]],
+            pairs: &[[0, 1]],
+            targets: &[],
+            slots: &[Plan::GROUND, 0, 0],
+        };
+        let matrix = |lumped_joints: &[LumpedJoint<f64>]| {
+            let (mut diagonal, mut pairs) = ([<[f64; 6]>::EMPTY; 2], [<[f64; 6]>::EMPTY]);
+            let mut system = System { plan, diagonal: &mut diagonal, pairs: &mut pairs };
+            let known = (matrix_weights, lumped_joints);
+            let bodies = state.bodies.as_ref();
+            assemble(&model, places, bodies, known, &state.laws, &mut system);
+            [diagonal[0], diagonal[1], pairs[0]].as_flattened().as_flattened().to_vec()
+        };
+        let [lumped, of_elements] = [matrix(&lumped_joints), matrix(&[])];
+        let scale = of_elements.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
+        for (a, b) in lumped.iter().zip(&of_elements) {
+            assert!((a - b).abs() < 1e-14 * scale, "{a} {b}");
+        }
     }
 
     /// Rounding differences between the points of a spherical joint do not make an axis, at any position.

@@ -62,7 +62,7 @@ impl<S: Space> System<'_, S> {
 
     /// Solves a factored system for right sides stored in wrenches.
     pub(crate) fn substitute(&self, right: &mut [Wrench<S>]) {
-        let (mut pairs, mut blocks) = (self.plan.pairs, &*self.pairs);
+        let mut links = self.plan.pairs.iter().zip(self.pairs.iter());
         for &[body, count] in self.plan.order {
             let row = usize::from(body);
             let (Some(factor), Some(own)) = (self.diagonal.get(row), right.get(row)) else {
@@ -70,10 +70,8 @@ impl<S: Space> System<'_, S> {
             };
             let mut x = S::row(own.force, own.torque);
             x.forward(factor);
-            let count = usize::from(count);
-            let Some((with, other_pairs)) = pairs.split_at_checked(count) else { break };
-            let Some((here, later)) = blocks.split_at_checked(count) else { break };
-            for ([_, second], block) in with.iter().zip(here) {
+            for _ in 0..count {
+                let Some(([_, second], block)) = links.next() else { break };
                 if let Some(other) = right.get_mut(usize::from(*second)) {
                     let mut y = S::row(other.force, other.torque);
                     y.reduce_by(block, &x);
@@ -84,28 +82,30 @@ impl<S: Space> System<'_, S> {
             if let Some(own) = right.get_mut(row) {
                 *own = wrench::<S>(x);
             }
-            (pairs, blocks) = (other_pairs, later);
         }
-        let (mut pairs, mut blocks) = (self.plan.pairs, &*self.pairs);
+        let mut end = self.plan.pairs.len();
         for &[body, count] in self.plan.order.iter().rev() {
             let row = usize::from(body);
             let (Some(factor), Some(own)) = (self.diagonal.get(row), right.get(row)) else {
                 continue;
             };
             let mut x = S::row(own.force, own.torque);
-            let before = pairs.len().saturating_sub(usize::from(count));
-            let Some((other_pairs, with)) = pairs.split_at_checked(before) else { break };
-            let Some((earlier, here)) = blocks.split_at_checked(before) else { break };
-            for ([_, second], block) in with.iter().zip(here) {
+            let begin = end.saturating_sub(usize::from(count));
+            for at in begin..end {
+                let (Some([_, second]), Some(block)) =
+                    (self.plan.pairs.get(at), self.pairs.get(at))
+                else {
+                    break;
+                };
                 if let Some(other) = right.get(usize::from(*second)) {
                     x.reduce_by_transposed(block, &S::row(other.force, other.torque));
                 }
             }
+            end = begin;
             x.backward(factor);
             if let Some(own) = right.get_mut(row) {
                 *own = wrench::<S>(x);
             }
-            (pairs, blocks) = (other_pairs, earlier);
         }
     }
 }
