@@ -170,14 +170,21 @@ impl<P: Geometry> BodyState<P> {
         }
     }
 
-    /// The same state in another precision.
-    pub fn convert<Q: Geometry>(&self) -> BodyState<Q> {
-        BodyState::from_f64(
+    /// Position \[m\], unit quaternion (scalar first, body → world), velocity \[m/s\] (world), angular velocity \[rad/s\]
+    /// (body axes), in double precision.
+    pub fn to_f64(&self) -> ([f64; 3], [f64; 4], [f64; 3], [f64; 3]) {
+        (
             P::position_to_f64(&self.position),
-            P::Orientation::to_f64(&self.orientation),
+            self.orientation.to_f64(),
             P::velocity_to_f64(&self.velocity),
             P::spin_to_f64(&self.angular_velocity),
         )
+    }
+
+    /// The same state in another precision.
+    pub fn convert<Q: Geometry>(&self) -> BodyState<Q> {
+        let (position, orientation, velocity, angular_velocity) = self.to_f64();
+        BodyState::from_f64(position, orientation, velocity, angular_velocity)
     }
 }
 

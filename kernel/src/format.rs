@@ -4,7 +4,6 @@ use core::ops::Deref;
 
 use defmt::{Format, Formatter, write};
 
-use crate::attitude::Attitude as _;
 use crate::body::{Body, BodyState, Diagonal, Increment};
 use crate::elements::load::Load;
 use crate::elements::point_on_line::PointOnLine;
@@ -57,14 +56,12 @@ of_a_space! {
 
 impl<P: Geometry> Format for BodyState<P> {
     fn format(&self, f: Formatter<'_>) {
+        let (position, orientation, velocity, angular_velocity) = self.to_f64();
         write!(
             f,
             "BodyState {{ position: {}, orientation: {}, velocity: {}, \
              angular_velocity: {} }}",
-            P::position_to_f64(&self.position),
-            P::Orientation::to_f64(&self.orientation),
-            P::velocity_to_f64(&self.velocity),
-            P::spin_to_f64(&self.angular_velocity),
+            position, orientation, velocity, angular_velocity,
         );
     }
 }

@@ -5,7 +5,6 @@
 
 use core::ops::Deref;
 
-use dbd_kernel::attitude::Attitude as _;
 use dbd_kernel::fingerprint::model_hash;
 use dbd_kernel::words::{Word, WordVisitor, Words};
 use dbd_kernel::{BodyState, Geometry, ModelOwner, Plant, Real, Scheme};
@@ -82,10 +81,7 @@ where
 
 /// A body's numbers in the order of a row.
 pub(crate) fn numbers<P: Geometry>(body: &BodyState<P>) -> BodyNumbers {
-    let [x, y, z] = P::position_to_f64(&body.position);
-    let [qw, qx, qy, qz] = body.orientation.to_f64();
-    let [vx, vy, vz] = P::velocity_to_f64(&body.velocity);
-    let [wx, wy, wz] = P::spin_to_f64(&body.angular_velocity);
+    let ([x, y, z], [qw, qx, qy, qz], [vx, vy, vz], [wx, wy, wz]) = body.to_f64();
     [x, y, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz]
 }
 

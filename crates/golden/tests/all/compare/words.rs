@@ -74,11 +74,7 @@ impl<M: ModelOwner<Precision = P>, P: Geometry> Moment for At<'_, M> {
         self.0.hash()
     }
     fn body_numbers(&self, row: usize) -> Option<[f64; 13]> {
-        use dbd_kernel::attitude::Attitude as _;
-        let body = self.0.bodies.as_ref().get(row)?;
-        let v = P::velocity_to_f64(&body.velocity);
-        let w = P::spin_to_f64(&body.angular_velocity);
-        let (x, q) = (P::position_to_f64(&body.position), body.orientation.to_f64());
+        let (x, q, v, w) = self.0.bodies.as_ref().get(row)?.to_f64();
         let mut numbers = x.into_iter().chain(q).chain(v).chain(w);
         Some([0.0; 13].map(|_| numbers.next().unwrap()))
     }
