@@ -14,13 +14,15 @@ fn own_time(scene: &str, scheme: &str, precision: &str) -> String {
     figure(1e-3 * all.iter().find(|row| row.is(&wanted)).unwrap().number("ns_per_step"), 2)
 }
 
-/// Code and model in flash / RAM with stack \[kB\].
+/// Code and model in flash / RAM with stack \[kB\]; a dash for a step that the audit's image lacks.
 fn memory(scheme: &str, precision: &str) -> String {
     let counted = cost("four-bar", scheme, precision);
-    let bytes = |columns: [&str; 2]| columns.map(|column| counted.number(column)).iter().sum();
-    let kilo = |bytes: f64| figure(1e-3 * bytes, 2);
-    let flash = kilo(bytes(["text_bytes", "rodata_bytes"]));
-    format!("{flash} / {} kB", kilo(bytes(["plant_ram_bytes", "stack_bytes"])))
+    let bytes = |columns: [&str; 2]| -> Option<f64> {
+        columns.iter().map(|column| counted.text(column).parse::<f64>().ok()).sum()
+    };
+    let kilo = |columns| bytes(columns).map_or("–".into(), |bytes| figure(1e-3 * bytes, 2));
+    let flash = kilo(["text_bytes", "rodata_bytes"]);
+    format!("{flash} / {} kB", kilo(["plant_ram_bytes", "stack_bytes"]))
 }
 
 /// On how many builds and machines how many hashes, or more, were found equal.
