@@ -99,7 +99,6 @@ fn the_largest_chain_that_fits_a_chip() {
     row!(F32, "f32", Rk4, "rk4");
     row!(F32, "f32", Dbd, "dbd");
     row!(F64, "f64", Leapfrog, "leapfrog");
-    row!(F64, "f64", Rk4, "rk4");
     let head =
         ["", "flash per link [B]", "RAM per link [B]", "links in flash", "in RAM", "largest"];
     block("docs/extremes.md", "largest", &table(&head, &rows));
