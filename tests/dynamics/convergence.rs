@@ -104,8 +104,8 @@ impl Case {
         }
         solved! {
             GeneralizedAlpha = GeneralizedAlpha::DEFAULT, second;
-            // In shorter steps a tumbling body's errors of third and fourth order cancel in part.
-            GeneralizedAlpha3 = GeneralizedAlpha3, fourth / 2;
+            // Its error of third order is small: that of the next shows in longer steps.
+            GeneralizedAlpha3 = GeneralizedAlpha3, 8 * fourth;
         }
     }
 
@@ -118,9 +118,9 @@ impl Case {
         });
         let (order, title) = ((coarse / fine).log2(), self.title);
         println!("{title}, {}: {order} from {coarse:e}, {fine:e}", S::NAME);
-        // Damped order is that of strong dampers: weak ones leave the other. The next order may show, too.
-        let least = f64::from(least) - TOLERANCE;
-        assert!(least < order, "{title}, {}: {order} from {coarse:e}, {fine:e}", S::NAME);
+        // Damped order is that of strong dampers: weak ones leave the other.
+        let orders = f64::from(least) - TOLERANCE..f64::from(S::ORDER) + TOLERANCE;
+        assert!(orders.contains(&order), "{title}, {}: {order} from {coarse:e}, {fine:e}", S::NAME);
     }
 }
 

@@ -191,13 +191,12 @@ fn generalized_alpha_3_is_of_order_3_where_dampers_are_resolved() {
     ] {
         for damping in DAMPING {
             let model: SceneModel<F64> = hung(joint, realisation, damping).model.planned();
-            // In shorter steps an undamped motion is exact to rounding.
-            let step = if damping > 0.0 { longest(damping) } else { 2e-4 };
+            // The error of third order is so small without dampers that the next shows; in shorter steps rounding does.
+            let (step, most) = if damping > 0.0 { (longest(damping), 3.3) } else { (2e-4, 5.0) };
             let found = order(&model, GeneralizedAlpha3, step);
             println!("{joint} {realisation} {damping}: {found}");
-            // Where the error of third order is small, that of the next shows.
             let least = if damping > 100.0 { 1.6 } else { 2.8 };
-            if !(least..5.0).contains(&found) {
+            if !(least..most).contains(&found) {
                 off.push(format!("{joint} {realisation} {damping}: {found}"));
             }
         }
