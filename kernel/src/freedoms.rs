@@ -13,6 +13,8 @@ pub trait Freedoms: Copy + Debug + Send + 'static {
     type Real: Real;
     /// One row per degree of freedom.
     type Block: Copy + Debug + Send;
+    /// The translations of a body alone.
+    type Translation: Freedoms<Real = Self::Real>;
 
     /// The row of zeros.
     const ZERO: Self;
@@ -46,7 +48,18 @@ pub trait Freedoms: Copy + Debug + Send + 'static {
     fn reduce_by(&mut self, block: &Self::Block, other: &Self);
     /// Subtracts `blockᵀ·other` from the row.
     fn reduce_by_transposed(&mut self, block: &Self::Block, other: &Self);
+    /// Its translations.
+    fn translation(&self) -> Self::Translation;
+    /// Replaces its translations.
+    fn set_translation(&mut self, translation: Self::Translation);
+    /// The part of a block for translations of both bodies.
+    fn translations(block: &Self::Block) -> BlockIn<Self::Translation>;
+    /// Replaces the part of a block for translations of both bodies.
+    fn set_translations(block: &mut Self::Block, part: &BlockIn<Self::Translation>);
 }
+
+/// The block of a row.
+type BlockIn<R> = <R as Freedoms>::Block;
 
 #[inline(always)]
 fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
@@ -57,13 +70,14 @@ fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
     sum
 }
 
-/// The unrolled algebra of rows of the given size: for each row the columns before it, for each of these the columns
-/// before that; then the rows from the last on with the columns before each.
+/// The unrolled algebra of rows of the given size, and of its translations: for each row the columns before it, for each
+/// of these the columns before that; then the rows from the last on with the columns before each.
 macro_rules! freedoms {
-    ($n:literal: $($r:literal [$($c:literal [$($k:literal)*])*])*; $($last:literal [$($before:literal)*])*) => {
+    ($n:literal of [$($t:literal)*] $m:literal: $($r:literal [$($c:literal [$($k:literal)*])*])*; $($last:literal [$($before:literal)*])*) => {
         impl<R: Real> Freedoms for [R; $n] {
             type Real = R;
             type Block = [[R; $n]; $n];
+            type Translation = [R; $m];
 
             const ZERO: Self = [R::ZERO; $n];
             const EMPTY: Self::Block = [[R::ZERO; $n]; $n];
@@ -173,12 +187,33 @@ macro_rules! freedoms {
                     $(self[$r] = self[$r] - row[$r] * *x;)*
                 }
             }
+
+            #[inline(always)]
+            fn translation(&self) -> [R; $m] {
+                [$(self[$t]),*]
+            }
+
+            #[inline(always)]
+            fn set_translation(&mut self, translation: [R; $m]) {
+                $(self[$t] = translation[$t];)*
+            }
+
+            #[inline(always)]
+            fn translations(block: &Self::Block) -> [[R; $m]; $m] {
+                [$(block[$t].translation()),*]
+            }
+
+            #[inline(always)]
+            fn set_translations(block: &mut Self::Block, part: &[[R; $m]; $m]) {
+                $(block[$t].set_translation(part[$t]);)*
+            }
         }
     };
 }
 
-freedoms!(3: 0 [] 1 [0 []] 2 [0 [] 1 [0]]; 2 [0 1] 1 [0]);
-freedoms!(6:
+freedoms!(2 of [0 1] 2: 0 [] 1 [0 []]; 1 [0]);
+freedoms!(3 of [0 1] 2: 0 [] 1 [0 []] 2 [0 [] 1 [0]]; 2 [0 1] 1 [0]);
+freedoms!(6 of [0 1 2] 3:
     0 []
     1 [0 []]
     2 [0 [] 1 [0]]

@@ -50,6 +50,8 @@ fn the_page_names_every_key() {
         "hanging-chain",
         "--chains",
         "2,4",
+        "--nets",
+        "2,31",
     ]);
     let page = std::fs::read_to_string(dbd_tests::results::path("docs/speed.md")).unwrap();
     let section = page
@@ -70,6 +72,14 @@ fn the_page_names_every_key() {
     let goals = outcome["goals"].as_array().unwrap();
     let growth = goals.iter().filter(|goal| goal["what"].as_str().unwrap().starts_with("time"));
     assert_eq!(growth.count(), 1);
+    let nets: Vec<u64> = outcome["nets"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|net| net["bodies"].as_u64().unwrap())
+        .collect();
+    assert_eq!(nets, [4, 961]);
+    assert_eq!(goals.iter().filter(|goal| goal["at_most"] == 1500.0).count(), 1);
     // Every machine has lanes of its own, and threads.
     let ensembles = outcome["ensembles"].as_array().unwrap();
     assert!(ensembles.len() >= 4 && ensembles.iter().all(|row| row["name"] == "four-bar"));

@@ -167,6 +167,94 @@ axis = [0, 1, 0]
     check(GeneralizedAlpha3, text);
 }
 
+/// A net of point masses, hung from a beam with lever arms, a joint, a torsion spring and an interaction.
+const HUNG_NET: &str = r#"
+name = "hung-net"
+duration = 0.2
+gravity = [0, -9.81, 0]
+[[body]]
+name = "beam"
+mass = 2.0
+inertia = [0.01, 0.02, 0.02]
+position = [0.2, 0, 0]
+[[joint]]
+name = "pivot"
+type = "revolute"
+between = ["world", "beam"]
+at = [0, 0, 0]
+axis = [0, 0, 1]
+stiffness = 1e6
+span = 0.1
+[[interaction]]
+law = "hinge-spring"
+between = ["world", "beam"]
+axis = [0, 0, 1]
+torque = [[-1, -20], [1, 20]]
+[[torsion_spring]]
+between = ["world", "beam"]
+axis = [0, 0, 1]
+stiffness = 20.0
+"#;
+
+fn hung_net() -> String {
+    let mut text = HUNG_NET.to_owned();
+    let tie = |a: &str, b: &str, arm: [f64; 3]| {
+        format!(
+            "[[tsda]]\nbetween = [\"{a}\", \"{b}\"]\npoints = [{arm:?}, [0, 0, 0]]\n\
+             stiffness = 3e4\ndamping = 2.0\nfree_length = 0.1\n"
+        )
+    };
+    for (x, y) in (0..4).flat_map(|y| (0..4).map(move |x| (x, y))) {
+        let place = [0.1 * f64::from(x), -0.1 * f64::from(y + 1), 0.0];
+        text += &format!(
+            "[[body]]\nname = \"n{x}{y}\"\nmass = 0.1\ninertia = [1e-5, 2e-5, 2e-5]\n\
+             position = {place:?}\nangular_velocity = [0, 0, 3]\n"
+        );
+    }
+    for (x, y) in (0..4).flat_map(|y| (0..4).map(move |x| (x, y))) {
+        let at = |x: i32, y: i32| format!("n{x}{y}");
+        if y == 0 {
+            text += &tie("beam", &at(x, y), [0.1 * f64::from(x) - 0.2, 0.0, 0.0]);
+        } else {
+            text += &tie(&at(x, y - 1), &at(x, y), [0.0; 3]);
+        }
+        if x > 0 {
+            text += &tie(&at(x - 1, y), &at(x, y), [0.0; 3]);
+        }
+    }
+    text + "[[input]]\nname = \"spin\"\ntype = \"torque\"\nbody = \"n11\"\naxis = [0, 0, 1]\nvalue = 1e-3\n"
+}
+
+/// Products of translations alone have the bits of products of whole blocks.
+#[test]
+fn decoupled_rotations_change_no_bit() {
+    fn check<P: Geometry>(model: &SceneModel<F64>, least: usize, scheme: impl Scheme) {
+        let model: SceneModel<P> = model.clone().planned().convert();
+        let mut whole = model.clone();
+        whole.plan.decoupled = vec![false; model.bodies.len()];
+        let decoupled = model.plan.decoupled.iter().filter(|is| **is).count();
+        assert!((least..model.bodies.len() - 1).contains(&decoupled), "{:?}", model.plan);
+        let hash = |model: &SceneModel<P>| {
+            let mut plant = Plant::new(model, scheme, 1e-3).unwrap();
+            plant.advance(200).unwrap();
+            plant.hash()
+        };
+        assert_eq!(hash(&model), hash(&whole));
+    }
+    let net = Scene::parse(&hung_net(), "net.toml").unwrap();
+    let flat = Scene::parse(&format!("planar = true\n{}", hung_net()), "net.toml").unwrap();
+    let flat = &flat.planar.unwrap().model;
+    check::<F64>(&net.model, 8, SCHEME);
+    check::<F32>(&net.model, 8, GeneralizedAlpha3);
+    check::<Fixed>(&net.model, 8, SCHEME);
+    check::<Planar64>(flat, 8, SCHEME);
+    check::<Planar64>(flat, 8, GeneralizedAlpha3);
+    // Joints and interactions couple all.
+    for name in ["four-bar", "macpherson"] {
+        assert!(!scene(name).model.planned().plan.decoupled.contains(&true), "{name}");
+    }
+}
+
 fn plant_of<M: ModelOwner, S: Scheme>(model: &M, scheme: S) -> Plant<&M, S> {
     Plant::new(model, scheme, 1e-3).unwrap()
 }

@@ -7,10 +7,9 @@
 use std::collections::BTreeSet;
 use std::ops::Deref;
 
-use dbd_kernel::laws::Laws;
-use dbd_kernel::model::Plan;
-use dbd_kernel::model::{Group, ModelOwner, ModelRef};
-use dbd_kernel::{BodyState, Geometry, TorsionSpring};
+use dbd_kernel::laws::Laws as _;
+use dbd_kernel::model::{Law, ModelOwner, ModelRef, Plan, Terms};
+use dbd_kernel::{BodyState, Geometry};
 
 /// A plan on the heap, see [`Plan`] for the fields.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -23,6 +22,8 @@ pub struct Elimination {
     pub targets: Vec<u32>,
     /// [`Plan::slots`].
     pub slots: Vec<u32>,
+    /// [`Plan::decoupled`].
+    pub decoupled: Vec<bool>,
 }
 
 impl Elimination {
@@ -102,13 +103,9 @@ impl Elimination {
         Some(plan)
     }
 
-    /// The plan of a model by its bodies, groups, torsion springs and laws.
-    pub(crate) fn of<P: Geometry, L: Laws<P>>(
-        bodies: usize,
-        groups: &[Group],
-        torsions: &[TorsionSpring<P::Space>],
-        laws: &L,
-    ) -> Option<Self> {
+    /// The plan of a model.
+    pub(crate) fn of<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>) -> Option<Self> {
+        let ModelRef { bodies, groups, points, torsions, laws, .. } = *model;
         let (mut ends, mut cliques) = (Vec::new(), Vec::new());
         laws.look_at_all(&laws.states(), &mut |_, law| {
             let own = law.bodies().map(|end| end.0);
@@ -117,17 +114,42 @@ impl Elimination {
             law.branch_bodies(&mut |bodies| clique.extend(bodies.map(|end| end.0)));
             cliques.push(clique);
         });
-        let groups = groups.iter().map(|group| [group.a.0, group.b.0]);
         let torsions = torsions.iter().map(|spring| [spring.a.0, spring.b.0]);
+        let mut decoupled = vec![true; bodies.len()];
+        let mut couple = |body: u16| {
+            if let Some(decoupled) = decoupled.get_mut(usize::from(body)) {
+                *decoupled = false;
+            }
+        };
+        cliques.iter().flatten().copied().chain(torsions.clone().flatten()).for_each(&mut couple);
+        for group in groups {
+            let from = usize::from(group.point);
+            let own = points.get(from..from + group.points()).unwrap_or_default();
+            let (a, b) = own.split_at_checked(usize::from(group.triples)).unwrap_or_default();
+            for (body, own) in [(group.a, a), (group.b, b)] {
+                let mut own = own.iter().map(P::local_to_f64);
+                if group.law != Law::Tsda || own.any(|point| point != [0.0; 3]) {
+                    couple(body.0);
+                }
+            }
+        }
+        let groups = groups.iter().map(|group| [group.a.0, group.b.0]);
         let ends: Vec<_> = groups.chain(torsions).chain(ends).collect();
-        Self::with_cliques(bodies, &ends, &cliques)
+        let mut plan = Self::with_cliques(bodies.len(), &ends, &cliques)?;
+        // In this order the bodies that are eliminated later are still known by themselves.
+        for [first, second] in &plan.pairs {
+            let joined = decoupled[usize::from(*second)];
+            decoupled[usize::from(*first)] &= joined;
+        }
+        plan.decoupled = decoupled;
+        Some(plan)
     }
 
     /// The plan in the form of the kernel.
     #[must_use]
     pub fn plan(&self) -> Plan<'_> {
-        let Self { order, pairs, targets, slots } = self;
-        Plan { order, pairs, targets, slots }
+        let Self { order, pairs, targets, slots, decoupled } = self;
+        Plan { order, pairs, targets, slots, decoupled }
     }
 
     /// Number of pairs filled in by elimination.
@@ -149,9 +171,7 @@ impl<H: Deref<Target: ModelOwner + Sized>> Eliminated<H> {
     /// The model that `model` points to with its plan; `None` if the plan is too large.
     #[must_use]
     pub fn new(model: H) -> Option<Self> {
-        let view = model.view();
-        let ModelRef { bodies, groups, torsions, laws, .. } = view;
-        let plan = Elimination::of(bodies.len(), groups, torsions, laws)?;
+        let plan = Elimination::of(&model.view())?;
         Some(Self { model, plan })
     }
 }

@@ -93,8 +93,7 @@ impl<P: Geometry> SceneModel<P> {
     /// The same model with an elimination order for an implicit scheme; unchanged where the plan is too large.
     #[must_use]
     pub fn planned(self) -> Self {
-        let plan = Elimination::of(self.bodies.len(), &self.groups, &self.torsions, &self.laws);
-        let plan = plan.unwrap_or_default();
+        let plan = Elimination::of(&self.view()).unwrap_or_default();
         Self { plan, ..self }
     }
 

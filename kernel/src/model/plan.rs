@@ -17,13 +17,17 @@ pub struct Plan<'m> {
     pub targets: &'m [u32],
     /// For each group and then each torsion spring the slot of its bodies' pair; [`Plan::GROUND`] with the ground.
     pub slots: &'m [u32],
+    /// Per body, whether its rotations and those of the bodies eliminated with it later couple with nothing: all its
+    /// elements act at centres of mass. Empty where that is not known.
+    pub decoupled: &'m [bool],
 }
 
 impl Plan<'_> {
     /// The slot of an element with one body only: no pair has it.
     pub const GROUND: u32 = u32::MAX;
     /// The empty plan.
-    pub const NONE: Self = Self { order: &[], pairs: &[], targets: &[], slots: &[] };
+    pub const NONE: Self =
+        Self { order: &[], pairs: &[], targets: &[], slots: &[], decoupled: &[] };
 
     /// Whether it is valid for a model with the given number of bodies, and for these ends of its groups and torsion
     /// springs: then a solution by it is that of the whole matrix.
@@ -35,6 +39,12 @@ impl Plan<'_> {
             && (0..bodies).all(is_there)
             && self.columns_fit()
             && self.slots_fit(bodies, ends)
+    }
+
+    /// Whether the rotations of a body and of those eliminated with it later couple with nothing.
+    #[inline(always)]
+    pub(crate) fn is_decoupled(&self, body: usize) -> bool {
+        self.decoupled.get(body).is_some_and(|decoupled| *decoupled)
     }
 
     /// Pairs and targets, body by body in order.
@@ -92,6 +102,7 @@ mod tests {
         pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
         targets: &[3, 4],
         slots: &[Plan::GROUND, 0, 2, 4, 1],
+        decoupled: &[],
     };
     const ENDS: [[u16; 2]; 5] = [[u16::MAX, 0], [0, 1], [2, 1], [2, 3], [3, 0]];
 

@@ -107,7 +107,8 @@ where
 
     #[inline]
     fn plan(&self) -> Plan<'_> {
-        Plan { order: &self.order, pairs: &self.pairs, targets: &self.targets, slots: &self.slots }
+        let Self { order, pairs, targets, slots, .. } = self;
+        Plan { order, pairs, targets, slots, decoupled: &[] }
     }
 
     #[inline]

@@ -293,6 +293,7 @@ mod tests {
             pairs: &[[0, 1]],
             targets: &[],
             slots: &[Plan::GROUND, 0, 0],
+            decoupled: &[],
         };
         let matrix = |lumped_joints: &[LumpedJoint<f64>]| {
             let (mut diagonal, mut pairs) = ([<[f64; 6]>::EMPTY; 2], [<[f64; 6]>::EMPTY]);

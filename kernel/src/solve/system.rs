@@ -19,11 +19,12 @@ pub(crate) struct System<'s, S: Space> {
 }
 
 impl<S: Space> System<'_, S> {
-    /// Factors the matrix in place.
+    /// Factors the matrix in place. `DECOUPLED` looks for bodies whose rotations couple with nothing: the products of their
+    /// blocks are those of translations, 27 instead of 216 multiplications, with the same bits.
     ///
     /// # Errors
     /// The first body with a pivot that is not positive: its state or its neighbours' is out of the number's range.
-    pub(crate) fn factor(&mut self) -> Result<(), BodyIndex> {
+    pub(crate) fn factor<const DECOUPLED: bool>(&mut self) -> Result<(), BodyIndex> {
         let Plan { order, mut pairs, mut targets, .. } = self.plan;
         let (mut blocks, mut first) = (&mut *self.pairs, 0);
         for &[body, count] in order {
@@ -37,8 +38,33 @@ impl<S: Space> System<'_, S> {
             let Some((with, other_pairs)) = pairs.split_at_checked(count) else { break };
             let Some((here, later)) = blocks.split_at_mut_checked(count) else { break };
             first += count;
+            let decoupled = DECOUPLED && self.plan.is_decoupled(row);
             for (i, [_, second]) in with.iter().enumerate() {
                 let Some((before, [block, ..])) = here.split_at_mut_checked(i) else { break };
+                if decoupled {
+                    let factor = S::Row::translations(&factor);
+                    let mut part = S::Row::translations(block);
+                    Translation::<S>::forward_block(&mut part, &factor);
+                    let divided = Translation::<S>::divided(&part, &factor);
+                    for other in before.iter() {
+                        let Some((target, rest)) = targets.split_first() else { break };
+                        targets = rest;
+                        let target = (*target as usize).checked_sub(first);
+                        if let Some(target) = target.and_then(|row| later.get_mut(row)) {
+                            let mut reduced = S::Row::translations(target);
+                            let other = S::Row::translations(other);
+                            Translation::<S>::reduce(&mut reduced, &part, &other);
+                            S::Row::set_translations(target, &reduced);
+                        }
+                    }
+                    if let Some(target) = self.diagonal.get_mut(usize::from(*second)) {
+                        let mut reduced = S::Row::translations(target);
+                        Translation::<S>::reduce_square(&mut reduced, &part, &divided);
+                        S::Row::set_translations(target, &reduced);
+                    }
+                    S::Row::set_translations(block, &divided);
+                    continue;
+                }
                 S::Row::forward_block(block, &factor);
                 let divided = S::Row::divided(block, &factor);
                 for other in before.iter() {
@@ -60,8 +86,8 @@ impl<S: Space> System<'_, S> {
         Ok(())
     }
 
-    /// Solves a factored system for right sides stored in wrenches.
-    pub(crate) fn substitute(&self, right: &mut [Wrench<S>]) {
+    /// Solves a factored system for right sides stored in wrenches; `DECOUPLED` as in [`Self::factor`].
+    pub(crate) fn substitute<const DECOUPLED: bool>(&self, right: &mut [Wrench<S>]) {
         let mut links = self.plan.pairs.iter().zip(self.pairs.iter());
         for &[body, count] in self.plan.order {
             let row = usize::from(body);
@@ -70,11 +96,19 @@ impl<S: Space> System<'_, S> {
             };
             let mut x = S::row(own.force, own.torque);
             x.forward(factor);
+            let decoupled = DECOUPLED && self.plan.is_decoupled(row);
+            let part = x.translation();
             for _ in 0..count {
                 let Some(([_, second], block)) = links.next() else { break };
                 if let Some(other) = right.get_mut(usize::from(*second)) {
                     let mut y = S::row(other.force, other.torque);
-                    y.reduce_by(block, &x);
+                    if decoupled {
+                        let mut reduced = y.translation();
+                        reduced.reduce_by(&S::Row::translations(block), &part);
+                        y.set_translation(reduced);
+                    } else {
+                        y.reduce_by(block, &x);
+                    }
                     *other = wrench::<S>(y);
                 }
             }
@@ -90,6 +124,7 @@ impl<S: Space> System<'_, S> {
                 continue;
             };
             let mut x = S::row(own.force, own.torque);
+            let decoupled = DECOUPLED && self.plan.is_decoupled(row);
             let begin = end.saturating_sub(usize::from(count));
             for at in begin..end {
                 let (Some([_, second]), Some(block)) =
@@ -98,7 +133,15 @@ impl<S: Space> System<'_, S> {
                     break;
                 };
                 if let Some(other) = right.get(usize::from(*second)) {
-                    x.reduce_by_transposed(block, &S::row(other.force, other.torque));
+                    let other = S::row(other.force, other.torque);
+                    if decoupled {
+                        let mut reduced = x.translation();
+                        let block = S::Row::translations(block);
+                        reduced.reduce_by_transposed(&block, &other.translation());
+                        x.set_translation(reduced);
+                    } else {
+                        x.reduce_by_transposed(block, &other);
+                    }
                 }
             }
             end = begin;
@@ -109,6 +152,9 @@ impl<S: Space> System<'_, S> {
         }
     }
 }
+
+/// The translations of a body alone.
+type Translation<S> = <<S as Space>::Row as Freedoms>::Translation;
 
 fn wrench<S: Space>(row: S::Row) -> Wrench<S> {
     let (force, torque) = S::parts(row);
@@ -130,6 +176,7 @@ mod tests {
             pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
             targets: &[3, 4],
             slots: &[Plan::GROUND, 0, 2, 4, 1],
+            decoupled: &[],
         };
         let mut random = 0.37_f64;
         let mut next = || {
@@ -166,8 +213,8 @@ mod tests {
             core::array::from_fn(|body| wrench(core::array::from_fn(|i| product(6 * body + i))));
         let mut system: System<'_, f64> =
             System { plan, diagonal: &mut diagonal, pairs: &mut pairs };
-        system.factor().unwrap();
-        system.substitute(&mut right);
+        system.factor::<false>().unwrap();
+        system.substitute::<false>(&mut right);
         for (found, meant) in right.into_iter().zip(meant) {
             let meant = wrench::<f64>(meant);
             let off = [found.force - meant.force, found.torque - meant.torque];
@@ -178,6 +225,50 @@ mod tests {
         diagonal = [<[f64; 6]>::EMPTY; 4];
         let mut system: System<'_, f64> =
             System { plan, diagonal: &mut diagonal, pairs: &mut pairs };
-        assert_eq!(system.factor(), Err(BodyIndex(0)));
+        assert_eq!(system.factor::<false>(), Err(BodyIndex(0)));
+    }
+
+    /// A ring of four bodies, of which the third has lever arms: the others' rotations couple with nothing.
+    #[test]
+    fn decoupled_bodies_are_solved_as_whole_ones() {
+        let whole = Plan {
+            order: &[[0, 2], [1, 2], [2, 1], [3, 0]],
+            pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
+            targets: &[3, 4],
+            ..Plan::NONE
+        };
+        let mut random = 0.37_f64;
+        let mut next = || {
+            random = 3.9 * random * (1.0 - random);
+            random - 0.5
+        };
+        let mut diagonal = [<[f64; 6]>::EMPTY; 4];
+        let mut pairs = [<[f64; 6]>::EMPTY; 5];
+        for block in &mut diagonal {
+            (0..6).for_each(|i| block[i][i] = 1.0 + 0.1 * i as f64);
+        }
+        for (ends, slot) in [[0, 1], [0, 3], [1, 2], [2, 3]].into_iter().zip([0, 1, 2, 4]) {
+            for _ in 0..3 {
+                let rows: [[f64; 6]; 2] = ends.map(|end| {
+                    core::array::from_fn(|i| if i < 3 || end == 2 { next() } else { 0.0 })
+                });
+                ends.iter()
+                    .zip(rows)
+                    .for_each(|(end, row)| row.add_square(3.0, &mut diagonal[*end]));
+                rows[1].add_product(-3.0, &rows[0], &mut pairs[slot]);
+            }
+        }
+        let right: [Wrench<f64>; 4] =
+            core::array::from_fn(|_| wrench(core::array::from_fn(|_| next())));
+        let solved = |decoupled| {
+            let (mut diagonal, mut pairs, mut right) = (diagonal, pairs, right);
+            let plan = Plan { decoupled, ..whole };
+            let mut system: System<'_, f64> =
+                System { plan, diagonal: &mut diagonal, pairs: &mut pairs };
+            system.factor::<true>().unwrap();
+            system.substitute::<true>(&mut right);
+            (diagonal, pairs, right.map(|x| (x.force, x.torque)))
+        };
+        assert_eq!(solved(&[true, false, false, true]), solved(&[]));
     }
 }

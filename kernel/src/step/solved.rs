@@ -56,8 +56,10 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         let known =
             (matrix_weights, if half { self.half_lumped_joints } else { self.lumped_joints });
         assemble(&self.model, places, self.bodies, known, self.law_states, &mut system);
-        system.factor().map_err(|body| Cause::Pivot { body })?;
-        system.substitute(self.wrenches);
+        // Models in flash are mechanisms: they do without the second form.
+        let factored = if T::ALL { system.factor::<true>() } else { system.factor::<false>() };
+        factored.map_err(|body| Cause::Pivot { body })?;
+        self.solve_again();
         Ok(())
     }
 
@@ -66,6 +68,10 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     pub(crate) fn solve_again(&mut self) {
         let plan = self.plan;
         let system = System { plan, diagonal: self.blocks, pairs: self.pair_blocks };
-        system.substitute(self.wrenches);
+        if T::ALL {
+            system.substitute::<true>(self.wrenches);
+        } else {
+            system.substitute::<false>(self.wrenches);
+        }
     }
 }

@@ -116,7 +116,7 @@ pub(super) fn model_in<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>
 /// Source of the model with the elimination order of a matrix: a type alias `FourBarPlannedF32` and a static
 /// `FOUR_BAR_PLANNED_F32`.
 pub(super) fn plan<P: SourceGeometry>(scene: &Scene, exact: &SceneModel<F64>) -> String {
-    let Elimination { order, pairs, targets, slots } = exact.clone().planned().plan;
+    let Elimination { order, pairs, targets, slots, .. } = exact.clone().planned().plan;
     let (ty, name) = (type_name(&scene.name), constant_name(&scene.name));
     let (suffix, capitals) = (P::SUFFIX, P::SUFFIX.to_uppercase());
     let planned = format!("{ty}Planned{suffix}");

@@ -4,6 +4,9 @@ use crate::chain;
 use clap::Parser;
 use clap::builder::RangedU64ValueParser;
 
+/// Bodies along a side of the nets where nobody says.
+const NETS: [usize; 2] = [10, 32];
+
 /// Measures what a step costs here: the kernel in turn with the std reference and a plain loop
 #[derive(Clone, Debug, Parser)]
 #[command(name = "bench", max_term_width = 100, after_help = include_str!("examples.txt"))]
@@ -23,6 +26,15 @@ pub struct BenchArguments {
         value_parser = RangedU64ValueParser::<usize>::new().range(1..=chain::MAX as u64)
     )]
     pub chains: Option<Vec<usize>>,
+    /// Bodies along a side of square nets of point masses, stepped by generalized-alpha [default: 10,32 where no
+    /// scene is named, else none]
+    #[arg(
+        long,
+        value_name = "BODIES",
+        value_delimiter = ',',
+        value_parser = RangedU64ValueParser::<usize>::new().range(2..=100)
+    )]
+    pub nets: Option<Vec<usize>>,
     /// Rounds in which each way is measured once
     #[arg(
         long,
@@ -40,4 +52,17 @@ pub struct BenchArguments {
     /// Print nothing but errors, and with --json the result
     #[arg(long)]
     pub quiet: bool,
+}
+
+impl BenchArguments {
+    /// Whether neither systems nor nets are named.
+    pub fn by_default(&self) -> bool {
+        self.scenes.is_empty() && self.chains.is_none() && self.nets.is_none()
+    }
+
+    /// Bodies along a side of the nets.
+    pub fn nets(&self) -> Vec<usize> {
+        let nets = self.by_default().then_some(&NETS[..]);
+        self.nets.as_deref().or(nets).unwrap_or_default().to_vec()
+    }
 }

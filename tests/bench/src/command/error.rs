@@ -2,6 +2,7 @@
 
 use crate::chain;
 use dbd_plant::PlantError;
+use dbd_scene::SceneError;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -23,6 +24,10 @@ pub enum BenchError {
         /// Why.
         why: PlantError,
     },
+    /// The scene of a net is refused.
+    #[error(transparent)]
+    #[diagnostic(help("--nets takes numbers of bodies along a side, e.g. 10,32"))]
+    Net(#[from] SceneError),
     /// A chain is refused.
     #[error(transparent)]
     #[diagnostic(help("--chains takes numbers of links, e.g. 10,100,1000"))]

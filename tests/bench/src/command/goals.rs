@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::ensembles::Together;
 use super::fit::exponent;
+use super::nets::Net;
 use super::ways::Row;
 
 /// A figure and what it ought to be.
@@ -80,8 +81,17 @@ impl Goal {
 
 /// The goals that the rows say something about.
 #[must_use]
-pub fn goals(rows: &[Row], ensembles: &[Together]) -> Vec<Goal> {
-    growth(rows).into_iter().chain(ensembles.iter().filter_map(lockstep)).collect()
+pub fn goals(rows: &[Row], ensembles: &[Together], nets: &[Net]) -> Vec<Goal> {
+    let nets = nets.iter().filter_map(large_net);
+    growth(rows).into_iter().chain(ensembles.iter().filter_map(lockstep)).chain(nets).collect()
+}
+
+/// The time of nets of about a thousand bodies, the largest that was aimed at.
+fn large_net(net: &Net) -> Option<Goal> {
+    let time = net.body_step_s.filter(|_| (900..=1_100).contains(&net.bodies))?;
+    let what = format!("ns per body and step, net of {} point masses", net.bodies);
+    let figure = 1e9 * time.least;
+    Some(Goal::new(what, figure, figure * time.spread, [None, Some(1_500.0)]))
 }
 
 /// Ensembles on AVX2, which is what was aimed at.

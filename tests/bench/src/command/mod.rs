@@ -9,6 +9,7 @@ mod ensembles;
 mod error;
 mod fit;
 mod goals;
+mod nets;
 mod outcome;
 mod systems;
 mod table;
@@ -91,5 +92,6 @@ fn bench(
         rows.push(ways::measured(system, rounds, arguments.steps, &mut heard)?);
     }
     let ensembles = ensembles::measured(&systems, rounds, arguments.steps);
-    Ok(Outcome::new(rounds, rows, ensembles))
+    let nets = nets::measured(&arguments.nets(), rounds, arguments.steps)?;
+    Ok(Outcome::new(rounds, rows, ensembles, nets))
 }

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::ensembles::Together;
 use super::fit::{Counts, Fit, fit};
 use super::goals::{Goal, goals};
+use super::nets::Net;
 use super::ways::Row;
 
 /// All that was measured, and what follows.
@@ -18,6 +19,8 @@ pub struct Outcome {
     pub systems: Vec<Row>,
     /// Ensembles of the first of them that is small.
     pub ensembles: Vec<Together>,
+    /// Nets of point masses.
+    pub nets: Vec<Net>,
     /// What a step's time is made of; `None` where the systems do not tell.
     pub fit: Option<Fit>,
     /// What was aimed at.
@@ -29,7 +32,7 @@ pub struct Outcome {
 impl Outcome {
     /// What follows from rows.
     #[must_use]
-    pub fn new(rounds: usize, systems: Vec<Row>, ensembles: Vec<Together>) -> Self {
+    pub fn new(rounds: usize, systems: Vec<Row>, ensembles: Vec<Together>, nets: Vec<Net>) -> Self {
         let times: Vec<(Counts, f64)> = systems
             .iter()
             .filter_map(|row| {
@@ -47,10 +50,11 @@ impl Outcome {
             checked: cfg!(debug_assertions),
             rounds,
             fit: fit(&times),
-            goals: goals(&systems, &ensembles),
+            goals: goals(&systems, &ensembles, &nets),
             largest_spread,
             systems,
             ensembles,
+            nets,
         }
     }
 }

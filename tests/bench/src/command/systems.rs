@@ -60,7 +60,7 @@ pub struct System {
 /// Where a scene cannot be loaded or a chain is refused.
 pub fn of(catalogue: &Catalogue, arguments: &BenchArguments) -> Result<Vec<System>, BenchError> {
     let mut systems = Vec::new();
-    let by_default = arguments.scenes.is_empty() && arguments.chains.is_none();
+    let by_default = arguments.by_default();
     if by_default {
         for (row, name) in TEN.into_iter().enumerate() {
             let scene = Scene::clone(&catalogue.load(name)?.scene);

@@ -155,7 +155,7 @@ fn tumbling(plant: &mut dyn AnyPlant) -> usize {
 }
 
 /// Takes so many steps in one call into the plant. One that has failed steps no more: it begins again.
-fn advance(plant: &mut dyn AnyPlant, mut steps: u64) {
+pub fn advance(plant: &mut dyn AnyPlant, mut steps: u64) {
     loop {
         let before = plant.steps();
         if black_box(plant.advance(steps)).is_ok() {
