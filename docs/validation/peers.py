@@ -1,7 +1,8 @@
-"""Work and precision where ideal joints are meant: this kernel, MuJoCo and generated code on the same mechanisms.
+"""Work and precision where ideal joints are meant: this kernel, MuJoCo, Pinocchio and generated code on the same
+mechanisms.
 
-    pip install ./python mujoco==4.0.0 casadi==3.8.2
-    python docs/validation/peers.py docs/results/peers.csv      # gcc compiles the generated code
+    pip install ./python mujoco==4.0.0 casadi==3.8.2 pin==4.1.0 cmeel-eigen==3.4.1
+    python docs/validation/peers.py docs/results/peers.csv      # gcc and g++ compile the generated code and Pinocchio's
 
 A tool's error [m] is the largest distance of a centre of mass from the truth at ten times of the window. The cost is the
 least CPU time of a run without output, in seconds per simulated second. A cell is the cheapest of the settings tried
@@ -23,6 +24,7 @@ from pathlib import Path
 import casadi
 import mujoco
 import numpy as np
+import pinocchio
 
 import dbd
 
@@ -190,6 +192,113 @@ class MuJoCo:
             mujoco.mj_resetData(model, data)
             begin = time.process_time()
             mujoco.mj_step(model, data, samples * per_sample)
+            return time.process_time() - begin
+
+        return np.array(places), again
+
+
+class Link(ctypes.Structure):
+    """A body of MuJoCo's model with its hinge, as pinocchio_rk4.cpp reads it."""
+
+    _fields_ = [
+        ("parent", ctypes.c_long),
+        ("place", ctypes.c_double * 3),
+        ("turn", ctypes.c_double * 4),
+        ("point", ctypes.c_double * 3),
+        ("axis", ctypes.c_double * 3),
+        ("centre", ctypes.c_double * 3),
+        ("axes", ctypes.c_double * 4),
+        ("mass", ctypes.c_double),
+        ("inertia", ctypes.c_double * 3),
+        ("stiffness", ctypes.c_double),
+        ("free_angle", ctypes.c_double),
+    ]
+
+
+class Loop(ctypes.Structure):
+    """A `connect` of MuJoCo's model."""
+
+    _fields_ = [("bodies", ctypes.c_long * 2), ("points", ctypes.c_double * 3 * 2)]
+
+
+class Pinocchio:
+    """RK4 in C++: a tree by the articulated-body algorithm, loops by constrained dynamics with proximal iterations.
+
+    Its model is the one that MuJoCo compiles.
+    """
+
+    name = f"Pinocchio {pinocchio.__version__}"
+    library = None
+
+    def __init__(self, scene: dict, folder: Path) -> None:
+        self.api = Pinocchio.library = Pinocchio.library or self.compile(folder)
+        model = mujoco.MjModel.from_xml_string(mjcf(scene))
+        rows = range(1, model.nbody)
+        assert list(model.jnt_bodyid) == list(rows), "a body of this scene has more or less than one hinge"
+        links = [
+            Link(
+                model.body_parentid[row] - 1,
+                tuple(model.body_pos[row]),
+                tuple(model.body_quat[row]),
+                tuple(model.jnt_pos[row - 1]),
+                tuple(model.jnt_axis[row - 1]),
+                tuple(model.body_ipos[row]),
+                tuple(model.body_iquat[row]),
+                model.body_mass[row],
+                tuple(model.body_inertia[row]),
+                model.jnt_stiffness[row - 1].flat[0],
+                model.qpos_spring[row - 1],
+            )
+            for row in rows
+        ]
+        loops = [
+            Loop((a - 1, b - 1), (tuple(points[:3]), tuple(points[3:6])))
+            for a, b, points in zip(model.eq_obj1id, model.eq_obj2id, model.eq_data)
+        ]
+        gravity = np.array(scene["gravity"], float)
+        self.bodies = len(links)
+        self.plant = self.api.create(
+            (Link * len(links))(*links), len(links), (Loop * len(loops))(*loops), len(loops), gravity.ctypes.data
+        )
+        order = [model.body(body["name"]).id - 1 for body in spiders(scene)["body"]]
+        self.order = np.array(order)
+
+    @staticmethod
+    def compile(folder: Path):
+        prefix = next(parent for parent in Path(pinocchio.__file__).parents if parent.name == "cmeel.prefix")
+        # Those that Pinocchio's own build of the variants of joints has.
+        limits = ("LIMIT_LIST_SIZE=30", "LIMIT_VECTOR_SIZE=30", "CFG_NO_PREPROCESSED_HEADERS")
+        options = [f"-DBOOST_MPL_{limit}" for limit in limits] + ["-DBOOST_FUSION_INVOKE_MAX_ARITY=12"]
+        options += [f"-I{prefix}/include", f"-I{prefix}/include/eigen3", f"-L{prefix}/lib", f"-Wl,-rpath,{prefix}/lib"]
+        library = folder / "pinocchio_rk4.so"
+        source = Path(__file__).with_name("pinocchio_rk4.cpp")
+        command = ["g++", "-std=c++17", "-O3", "-w", "-DNDEBUG", "-shared", "-fPIC", source, "-o", library]
+        subprocess.run([*command, *options, "-lpinocchio_default"], check=True)
+        api = ctypes.CDLL(str(library))
+        pointer, count = ctypes.c_void_p, ctypes.c_long
+        api.create.restype = pointer
+        api.create.argtypes = [pointer, count, pointer, count, pointer]
+        api.reset.argtypes = [pointer]
+        api.many.argtypes = [pointer, ctypes.c_double, count]
+        api.places.argtypes = [pointer, pointer]
+        return api
+
+    def settings(self):
+        return [("RK4",)]
+
+    def run(self, _, step: float, samples: int, per_sample: int):
+        self.api.reset(self.plant)
+        places = []
+        for _ in range(samples):
+            self.api.many(self.plant, step, per_sample)
+            found = np.empty((self.bodies, 3))
+            self.api.places(self.plant, found.ctypes.data)
+            places.append(found[self.order])
+
+        def again() -> float:
+            self.api.reset(self.plant)
+            begin = time.process_time()
+            self.api.many(self.plant, step, samples * per_sample)
             return time.process_time() - begin
 
         return np.array(places), again
@@ -418,7 +527,7 @@ def main(path: str) -> None:
         folder = Path(temporary)
         for name, text, window in mechanisms:
             scene = tomllib.loads(text)
-            tools = [Kernel(text, scene, folder), MuJoCo(scene)]
+            tools = [Kernel(text, scene, folder), Pinocchio(scene, folder), MuJoCo(scene)]
             if name in ("four-bar", "six-bar"):
                 tools.append(Generated(scene, folder))
             # The truth is a tool's with exact joints, at a step beyond all of those compared.
