@@ -42,6 +42,10 @@ pub trait Freedoms: Copy + Debug + Send + 'static {
     fn divided(block: &Self::Block, factor: &Self::Block) -> Self::Block;
     /// Subtracts `a·bᵀ` from a block.
     fn reduce(block: &mut Self::Block, a: &Self::Block, b: &Self::Block);
+    /// Subtracts `a·b` from a block, each sum that of [`Self::reduce`].
+    fn reduce_by_block(block: &mut Self::Block, a: &Self::Block, b: &Self::Block);
+    /// The transposed block.
+    fn transposed(block: &Self::Block) -> Self::Block;
     /// Subtracts `a·bᵀ`, which is symmetric, from the lower triangle of a block.
     fn reduce_square(block: &mut Self::Block, a: &Self::Block, b: &Self::Block);
     /// Subtracts `block·other` from the row.
@@ -163,6 +167,28 @@ macro_rules! freedoms {
                     let a = *a;
                     $(row[$r] = row[$r] - dot(&a, &b[$r]);)*
                 }
+            }
+
+            #[inline(always)]
+            fn reduce_by_block(block: &mut Self::Block, a: &Self::Block, b: &Self::Block) {
+                for (row, a) in block.iter_mut().zip(a) {
+                    let mut sums = b[0];
+                    $(sums[$r] = a[0] * b[0][$r];)*
+                    for k in 1..$n {
+                        $(sums[$r] = sums[$r] + a[k] * b[k][$r];)*
+                    }
+                    $(row[$r] = row[$r] - sums[$r];)*
+                }
+            }
+
+            #[inline(always)]
+            fn transposed(block: &Self::Block) -> Self::Block {
+                let mut out = *block;
+                $($(
+                    out[$r][$c] = block[$c][$r];
+                    out[$c][$r] = block[$r][$c];
+                )*)*
+                out
             }
 
             #[inline(always)]

@@ -30,8 +30,10 @@ pub(crate) fn assemble<P: Geometry, T: Terms<P>>(
     memories: &StatesIn<P, T>,
     system: &mut System<'_, P::Space>,
 ) {
-    for block in system.pairs.iter_mut() {
-        *block = Row::<P>::EMPTY;
+    if T::ALL {
+        system.clear_pairs();
+    } else {
+        system.pairs.fill(Row::<P>::EMPTY);
     }
     let rows = system.diagonal.iter_mut().zip(model.bodies).zip(places.frames);
     for ((block, body), frame) in rows {

@@ -19,6 +19,21 @@ pub(crate) struct System<'s, S: Space> {
 }
 
 impl<S: Space> System<'_, S> {
+    /// Zeros the blocks of pairs; those of decoupled bodies have translations alone.
+    pub(crate) fn clear_pairs(&mut self) {
+        let mut pairs = self.pairs.iter_mut();
+        for &[body, count] in self.plan.order {
+            let decoupled = self.plan.is_decoupled(usize::from(body));
+            for block in pairs.by_ref().take(usize::from(count)) {
+                if decoupled {
+                    S::Row::set_translations(block, &Translation::<S>::EMPTY);
+                } else {
+                    *block = S::Row::EMPTY;
+                }
+            }
+        }
+    }
+
     /// Factors the matrix in place. `DECOUPLED` looks for bodies whose rotations couple with nothing: the products of their
     /// blocks are those of translations, 27 instead of 216 multiplications, with the same bits.
     ///
@@ -38,33 +53,24 @@ impl<S: Space> System<'_, S> {
             let Some((with, other_pairs)) = pairs.split_at_checked(count) else { break };
             let Some((here, later)) = blocks.split_at_mut_checked(count) else { break };
             first += count;
-            let decoupled = DECOUPLED && self.plan.is_decoupled(row);
+            if DECOUPLED && self.plan.is_decoupled(row) {
+                let Some((own, rest)) =
+                    targets.split_at_checked(count * count.saturating_sub(1) / 2)
+                else {
+                    break;
+                };
+                eliminate_translations::<S>(
+                    &factor,
+                    (with, here),
+                    own,
+                    (later, first),
+                    self.diagonal,
+                );
+                (pairs, blocks, targets) = (other_pairs, later, rest);
+                continue;
+            }
             for (i, [_, second]) in with.iter().enumerate() {
                 let Some((before, [block, ..])) = here.split_at_mut_checked(i) else { break };
-                if decoupled {
-                    let factor = S::Row::translations(&factor);
-                    let mut part = S::Row::translations(block);
-                    Translation::<S>::forward_block(&mut part, &factor);
-                    let divided = Translation::<S>::divided(&part, &factor);
-                    for other in before.iter() {
-                        let Some((target, rest)) = targets.split_first() else { break };
-                        targets = rest;
-                        let target = (*target as usize).checked_sub(first);
-                        if let Some(target) = target.and_then(|row| later.get_mut(row)) {
-                            let mut reduced = S::Row::translations(target);
-                            let other = S::Row::translations(other);
-                            Translation::<S>::reduce(&mut reduced, &part, &other);
-                            S::Row::set_translations(target, &reduced);
-                        }
-                    }
-                    if let Some(target) = self.diagonal.get_mut(usize::from(*second)) {
-                        let mut reduced = S::Row::translations(target);
-                        Translation::<S>::reduce_square(&mut reduced, &part, &divided);
-                        S::Row::set_translations(target, &reduced);
-                    }
-                    S::Row::set_translations(block, &divided);
-                    continue;
-                }
                 S::Row::forward_block(block, &factor);
                 let divided = S::Row::divided(block, &factor);
                 for other in before.iter() {
@@ -150,6 +156,46 @@ impl<S: Space> System<'_, S> {
                 *own = wrench::<S>(x);
             }
         }
+    }
+}
+
+/// The products of [`System::factor`] for a decoupled body: column by column, so that registers hold what a column's
+/// products have in common.
+fn eliminate_translations<S: Space>(
+    factor: &BlockOf<S>,
+    (with, mut blocks): (&[[u16; 2]], &mut [BlockOf<S>]),
+    targets: &[u32],
+    (later, first): (&mut [BlockOf<S>], usize),
+    diagonal: &mut [BlockOf<S>],
+) {
+    let factor = S::Row::translations(factor);
+    for block in blocks.iter_mut() {
+        let mut part = S::Row::translations(block);
+        Translation::<S>::forward_block(&mut part, &factor);
+        S::Row::set_translations(block, &part);
+    }
+    for (column, [_, second]) in with.iter().enumerate() {
+        let Some((block, others)) = blocks.split_first_mut() else { break };
+        let part = S::Row::translations(block);
+        let divided = Translation::<S>::divided(&part, &factor);
+        S::Row::set_translations(block, &divided);
+        if let Some(target) = diagonal.get_mut(usize::from(*second)) {
+            let mut reduced = S::Row::translations(target);
+            Translation::<S>::reduce_square(&mut reduced, &part, &divided);
+            S::Row::set_translations(target, &reduced);
+        }
+        let divided = Translation::<S>::transposed(&divided);
+        for (row, other) in (column + 1..).zip(others.iter()) {
+            let target = targets.get(row * (row - 1) / 2 + column);
+            let target = target.and_then(|target| (*target as usize).checked_sub(first));
+            if let Some(target) = target.and_then(|row| later.get_mut(row)) {
+                let mut reduced = S::Row::translations(target);
+                let other = S::Row::translations(other);
+                Translation::<S>::reduce_by_block(&mut reduced, &other, &divided);
+                S::Row::set_translations(target, &reduced);
+            }
+        }
+        blocks = others;
     }
 }
 

@@ -1,8 +1,8 @@
 //! Roots `audit.step.MODEL.SCHEME.PRECISION`: steps of all schemes.
 //!
 //! All schemes with the four-bar and with a model that has every kind of element, in single precision and in fixed
-//! point; of double precision, which is compiled from the same text, leapfrog. Every law with leapfrog, every other
-//! shipped model with leapfrog in single precision, some in fixed point.
+//! point; of double precision, which is compiled from the same text, leapfrog, and pefrl with the four-bar. Every law with
+//! leapfrog, every other shipped model with leapfrog in single precision, some in fixed point.
 
 use dbd_kernel::laws::{
     Bushing, BushingCurves, BushingMatrix, BushingMaxwell, Coupling, DistanceDamper,
@@ -18,7 +18,10 @@ use dbd_kernel::{
     GeneralizedAlpha3, JointWise, Leapfrog, Model, Pefrl, Plant, Rk4, SemiImplicitEuler,
 };
 use firmware::alone::Alone;
-use firmware::models::{self, four_bar::FourBarF32};
+use firmware::models::{
+    self,
+    four_bar::{FourBarF32, FourBarF64},
+};
 
 use crate::Keep;
 
@@ -199,6 +202,8 @@ pub fn keep(keep: Keep) {
         "semi-implicit-euler-joint-wise" JointWise<SemiImplicitEuler>;
         "leapfrog-joint-wise" JointWise<Leapfrog>;
     }
+    // The README has its size.
+    step!(keep, "four-bar" Alone<FourBarF64, Pefrl>, "pefrl" Pefrl, "f64");
     every_kind! {
         "dbd" Dbd;
         "dbd-p1" DbdP1;
