@@ -6,7 +6,7 @@
 //! 0.05, the recommended limit h·ω = 0.1, and below 3e-10 and 1e-7 at x = 0.5.
 
 use crate::attitude::Attitude as _;
-use crate::body::Body;
+use crate::body::{Body, BodyState};
 use crate::compositions::PEFRL;
 use crate::geometry::Geometry;
 use crate::real::{Mask as _, Real};
@@ -50,8 +50,8 @@ pub(crate) fn turn_freely<P: Geometry>(
     time: P::Real,
 ) {
     let zero = P::Real::ZERO;
-    let w = P::spin(rate).in_space();
-    if P::Real::ONE_LANE && w.x == zero && w.y == zero {
+    if P::Real::ONE_LANE && !tumbles::<P>(rate) {
+        let w = P::spin(rate).in_space();
         // In planar motion only the rotation about z is nonzero, so it equals all five.
         if w.z != zero {
             let turn = Turn::by(time * w.z);
@@ -65,6 +65,45 @@ pub(crate) fn turn_freely<P: Geometry>(
         return five_turns_apart::<P>(body, orientation, rate, time);
     }
     five_turns::<P>(body, orientation, rate, time);
+}
+
+/// Whether [`turn_freely`] takes five rotations: a body rotates about another axis than z.
+#[inline(always)]
+pub(crate) fn tumbles<P: Geometry>(rate: &P::Spin) -> bool {
+    let w = P::spin(rate).in_space();
+    w.x != P::Real::ZERO || w.y != P::Real::ZERO
+}
+
+/// [`free_rotor`] of bodies in space, `None` where one of them does not tumble. Their rotations alternate: a processor
+/// computes one while that of another body waits for the rotation before it. For one lane.
+#[inline(always)]
+pub(crate) fn free_rotors<P: Geometry, const N: usize>(
+    bodies: &[Body<P::Space>; N],
+    states: &mut [BodyState<P>; N],
+    time: P::Real,
+) -> Option<()> {
+    if !states.iter().all(|state| tumbles::<P>(&state.angular_velocity)) {
+        return None;
+    }
+    let (half, none) = (P::Real::HALF * time, P::Real::mask(false));
+    macro_rules! each {
+        ($about:ident, $time:expr) => {
+            for (BodyState { orientation, angular_velocity, .. }, body) in
+                states.iter_mut().zip(bodies)
+            {
+                $about::<P>(body, orientation, angular_velocity, $time, none);
+            }
+        };
+    }
+    each!(about_x, half);
+    each!(about_y, half);
+    each!(about_z, time);
+    each!(about_y, half);
+    each!(about_x, half);
+    for state in states {
+        P::renormalise(&mut state.orientation);
+    }
+    Some(())
 }
 
 // Not inlined: integer rotations are long, and few bodies tumble.

@@ -125,3 +125,22 @@ fn unit_length_survives_a_million_turns_in_single_precision() {
     let norm: f64 = q.to_f64().iter().map(|c| c * c).sum();
     assert!((norm - 1.0).abs() < 1e-6, "{norm}");
 }
+
+#[test]
+fn bodies_that_rotate_together_have_the_bits_of_each() {
+    let bodies = [[0.5, 0.7, 1.1], [0.2, 0.3, 0.25]].map(|i| Body::<f64>::from_f64(1.0, i));
+    let state =
+        |rate| BodyState::<F64>::from_f64([0.0; 3], [0.8, 0.36, -0.48, 0.0], [0.0; 3], rate);
+    let mut states = [state([0.0, -0.9, 1.3]), state([2.0, 0.0, 0.0])];
+    let mut alone = states;
+    for _ in 0..20 {
+        free_rotors(&bodies, &mut states, 0.1).unwrap();
+        for (BodyState { orientation, angular_velocity, .. }, body) in alone.iter_mut().zip(&bodies)
+        {
+            free_rotor::<F64>(body, orientation, angular_velocity, 0.1);
+        }
+    }
+    assert_eq!(std::format!("{states:?}"), std::format!("{alone:?}"));
+    states[1] = state([0.0, 0.0, 1.3]);
+    assert_eq!(free_rotors(&bodies, &mut states, 0.1), None);
+}

@@ -74,3 +74,40 @@ pub(super) fn move_apart<P: Geometry, T: Terms<P>>(
     kick_body(state, wrench, diagonal, (P::Real::HALF, fall));
     drift_to_frame::<P, T>(state, body, frame, time);
 }
+
+/// The bodies that move together.
+pub(super) const ABREAST: usize = 2;
+
+/// What kicks bodies.
+type Forces<'w, S, const N: usize> = (&'w [Wrench<S>; N], &'w [Diagonal<S>; N]);
+
+/// Kicks bodies by `kick`, if any, moves them freely for `time` \[s\], and updates their frames where `place`.
+#[inline(always)]
+pub(super) fn move_abreast<P: Geometry, T: Terms<P>, const N: usize>(
+    (states, frames): (&mut [BodyState<P>; N], &mut [P::Frame; N]),
+    bodies: &[Body<P::Space>; N],
+    (wrenches, diagonals): Forces<'_, P::Space, N>,
+    kick: Option<(P::Real, Fall<P::Vector>)>,
+    (time, place): (P::Real, bool),
+) {
+    if let Some(kick) = kick {
+        for ((state, wrench), diagonal) in states.iter_mut().zip(wrenches).zip(diagonals) {
+            kick_body(state, wrench, diagonal, kick);
+        }
+    }
+    let driven = T::DRIVEN && bodies.iter().any(Body::is_driven);
+    if N > 1 && !driven && rotation::free_rotors(bodies, states, time).is_some() {
+        for state in states.iter_mut() {
+            P::advance_position(&mut state.position, &state.velocity, time);
+        }
+    } else {
+        for (state, body) in states.iter_mut().zip(bodies) {
+            drift_body::<P, T>(state, body, time);
+        }
+    }
+    if place {
+        for (state, frame) in states.iter().zip(frames) {
+            P::set_frame(frame, &state.position, &state.orientation);
+        }
+    }
+}

@@ -9,7 +9,7 @@ mod damped;
 mod driven;
 mod solved;
 
-use body::move_apart;
+use body::{ABREAST, move_abreast, move_apart};
 pub(crate) use body::{drift_body, drift_to_frame, kick_body};
 pub(crate) use driven::drive;
 
@@ -383,8 +383,46 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     pub fn drift(&mut self, time: P::Real) {
         self.cache.fresh = false;
         self.cache.ready = false;
+        if self.is_tumbling() {
+            return self.move_all(None, time, false);
+        }
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             drift_body::<P, T>(state, body, time);
+        }
+    }
+
+    /// Whether bodies move two at a time: where the first or the last of several tumbles, and the model is sized at run
+    /// time, in space, in floating point and alone.
+    #[inline(always)]
+    fn is_tumbling(&self) -> bool {
+        let abreast = T::ALL && P::Real::ONE_LANE && !P::Space::PLANAR && !P::RESTS;
+        let [first, .., last] = &*self.bodies else { return false };
+        abreast && [first, last].iter().any(|body| rotation::tumbles::<P>(&body.angular_velocity))
+    }
+
+    /// Kicks every body by `scale`, if any, moves it freely for `time` \[s\], and updates its frame where `place`. Not
+    /// inlined: one copy for all schemes.
+    #[inline(never)]
+    fn move_all(&mut self, scale: Option<P::Real>, time: P::Real, place: bool) {
+        let kick = scale.map(|scale| (scale, self.fall(scale)));
+        let how = (time, place);
+        let (states, last_states) = self.bodies.as_chunks_mut::<ABREAST>();
+        let (frames, last_frames) = self.frames.as_chunks_mut::<ABREAST>();
+        let (bodies, last_bodies) = self.model.bodies.as_chunks::<ABREAST>();
+        let (wrenches, last_wrenches) = self.wrenches.as_chunks::<ABREAST>();
+        let (diagonals, last_diagonals) = self.diagonals.as_chunks::<ABREAST>();
+        let forces = wrenches.iter().zip(diagonals);
+        for ((moved, bodies), forces) in states.iter_mut().zip(frames).zip(bodies).zip(forces) {
+            move_abreast::<P, T, ABREAST>(moved, bodies, forces, kick, how);
+        }
+        let (states, _) = last_states.as_chunks_mut::<1>();
+        let (frames, _) = last_frames.as_chunks_mut::<1>();
+        let (bodies, _) = last_bodies.as_chunks::<1>();
+        let (wrenches, _) = last_wrenches.as_chunks::<1>();
+        let (diagonals, _) = last_diagonals.as_chunks::<1>();
+        let forces = wrenches.iter().zip(diagonals);
+        for ((moved, bodies), forces) in states.iter_mut().zip(frames).zip(bodies).zip(forces) {
+            move_abreast::<P, T, 1>(moved, bodies, forces, kick, how);
         }
     }
 
@@ -393,6 +431,9 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
         self.cache.fresh = false;
         self.cache.ready = false;
+        if self.is_tumbling() {
+            return self.move_all(Some(scale), time, false);
+        }
         let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies);
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
@@ -408,6 +449,9 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         self.cache.fresh = false;
         self.cache.ready = false;
         self.cache.moved = true;
+        if self.is_tumbling() {
+            return self.move_all(None, time, true);
+        }
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         for ((state, body), frame) in rows {
             drift_to_frame::<P, T>(state, body, frame, time);
@@ -425,6 +469,9 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         self.cache.fresh = false;
         self.cache.ready = false;
         self.cache.moved = true;
+        if self.is_tumbling() {
+            return self.move_all(Some(scale), time, true);
+        }
         let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
