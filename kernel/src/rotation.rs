@@ -74,16 +74,16 @@ pub(crate) fn tumbles<P: Geometry>(rate: &P::Spin) -> bool {
     w.x != P::Real::ZERO || w.y != P::Real::ZERO
 }
 
-/// [`free_rotor`] of bodies in space, `None` where one of them does not tumble. Their rotations alternate: a processor
-/// computes one while that of another body waits for the rotation before it. For one lane.
+/// [`free_rotor`] of bodies in space; `false`, and nothing is changed, where one of them does not tumble. Their rotations
+/// alternate: a processor computes one while that of another body waits for the rotation before it. For one lane.
 #[inline(always)]
 pub(crate) fn free_rotors<P: Geometry, const N: usize>(
     bodies: &[Body<P::Space>; N],
     states: &mut [BodyState<P>; N],
     time: P::Real,
-) -> Option<()> {
+) -> bool {
     if !states.iter().all(|state| tumbles::<P>(&state.angular_velocity)) {
-        return None;
+        return false;
     }
     let (half, none) = (P::Real::HALF * time, P::Real::mask(false));
     macro_rules! each {
@@ -103,7 +103,7 @@ pub(crate) fn free_rotors<P: Geometry, const N: usize>(
     for state in states {
         P::renormalise(&mut state.orientation);
     }
-    Some(())
+    true
 }
 
 // Not inlined: integer rotations are long, and few bodies tumble.

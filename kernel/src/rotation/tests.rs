@@ -134,7 +134,7 @@ fn bodies_that_rotate_together_have_the_bits_of_each() {
     let mut states = [state([0.0, -0.9, 1.3]), state([2.0, 0.0, 0.0])];
     let mut alone = states;
     for _ in 0..20 {
-        free_rotors(&bodies, &mut states, 0.1).unwrap();
+        assert!(free_rotors(&bodies, &mut states, 0.1));
         for (BodyState { orientation, angular_velocity, .. }, body) in alone.iter_mut().zip(&bodies)
         {
             free_rotor::<F64>(body, orientation, angular_velocity, 0.1);
@@ -142,5 +142,6 @@ fn bodies_that_rotate_together_have_the_bits_of_each() {
     }
     assert_eq!(std::format!("{states:?}"), std::format!("{alone:?}"));
     states[1] = state([0.0, 0.0, 1.3]);
-    assert_eq!(free_rotors(&bodies, &mut states, 0.1), None);
+    let before = states;
+    assert!(!free_rotors(&bodies, &mut states, 0.1) && states == before);
 }

@@ -96,7 +96,7 @@ pub(super) fn move_abreast<P: Geometry, T: Terms<P>, const N: usize>(
         }
     }
     let driven = T::DRIVEN && bodies.iter().any(Body::is_driven);
-    if N > 1 && !driven && rotation::free_rotors(bodies, states, time).is_some() {
+    if N > 1 && !driven && rotation::free_rotors(bodies, states, time) {
         for state in states.iter_mut() {
             P::advance_position(&mut state.position, &state.velocity, time);
         }

@@ -392,10 +392,11 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     }
 
     /// Whether bodies move two at a time: where the first or the last of several tumbles, and the model is sized at run
-    /// time, in space, in floating point and alone.
+    /// time, in space, in floating point and alone. Processors of 32 bits compute in order and would gain nothing.
     #[inline(always)]
     fn is_tumbling(&self) -> bool {
-        let abreast = T::ALL && P::Real::ONE_LANE && !P::Space::PLANAR && !P::RESTS;
+        let abreast = cfg!(target_pointer_width = "64")
+            && (T::ALL && P::Real::ONE_LANE && !P::Space::PLANAR && !P::RESTS);
         let [first, .., last] = &*self.bodies else { return false };
         abreast && [first, last].iter().any(|body| rotation::tumbles::<P>(&body.angular_velocity))
     }
