@@ -213,22 +213,28 @@ mod tests {
 
     use super::*;
 
+    const RING: Plan<'static> = Plan {
+        order: &[[0, 2], [1, 2], [2, 1], [3, 0]],
+        pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
+        targets: &[3, 4],
+        slots: &[Plan::GROUND, 0, 2, 4, 1],
+        decoupled: &[],
+    };
+
+    /// Numbers between -0.5 and 0.5.
+    fn numbers() -> impl FnMut() -> f64 {
+        let mut random = 0.37_f64;
+        move || {
+            random = 3.9 * random * (1.0 - random);
+            random - 0.5
+        }
+    }
+
     /// A ring of four bodies, the first on the ground: eliminating one pair's bodies fills another. The product of the
     /// whole matrix with the solution is the right side.
     #[test]
     fn a_ring_whose_elimination_fills_a_pair_is_solved() {
-        let plan = Plan {
-            order: &[[0, 2], [1, 2], [2, 1], [3, 0]],
-            pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
-            targets: &[3, 4],
-            slots: &[Plan::GROUND, 0, 2, 4, 1],
-            decoupled: &[],
-        };
-        let mut random = 0.37_f64;
-        let mut next = || {
-            random = 3.9 * random * (1.0 - random);
-            random - 0.5
-        };
+        let (plan, mut next) = (RING, numbers());
         let mut diagonal = [<[f64; 6]>::EMPTY; 4];
         let mut pairs = [<[f64; 6]>::EMPTY; 5];
         let mut whole = vec![[0.0; 24]; 24];
@@ -277,17 +283,7 @@ mod tests {
     /// A ring of four bodies, of which the third has lever arms: the others' rotations couple with nothing.
     #[test]
     fn decoupled_bodies_are_solved_as_whole_ones() {
-        let whole = Plan {
-            order: &[[0, 2], [1, 2], [2, 1], [3, 0]],
-            pairs: &[[0, 1], [0, 3], [1, 2], [1, 3], [2, 3]],
-            targets: &[3, 4],
-            ..Plan::NONE
-        };
-        let mut random = 0.37_f64;
-        let mut next = || {
-            random = 3.9 * random * (1.0 - random);
-            random - 0.5
-        };
+        let mut next = numbers();
         let mut diagonal = [<[f64; 6]>::EMPTY; 4];
         let mut pairs = [<[f64; 6]>::EMPTY; 5];
         for block in &mut diagonal {
@@ -308,7 +304,7 @@ mod tests {
             core::array::from_fn(|_| wrench(core::array::from_fn(|_| next())));
         let solved = |decoupled| {
             let (mut diagonal, mut pairs, mut right) = (diagonal, pairs, right);
-            let plan = Plan { decoupled, ..whole };
+            let plan = Plan { decoupled, ..RING };
             let mut system: System<'_, f64> =
                 System { plan, diagonal: &mut diagonal, pairs: &mut pairs };
             system.factor::<true>().unwrap();

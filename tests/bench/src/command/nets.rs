@@ -1,6 +1,7 @@
 //! Square nets of point masses, stepped with a matrix.
 //!
-//! `(bodies along a side, rounds) => time per body and step`. Elimination fills the matrix of a net: its cost grows faster than its bodies.
+//! `(bodies along a side, rounds) => time per body and step`. Elimination fills the matrix of a net: its
+//! cost grows faster than its bodies.
 
 use std::fmt::Write as _;
 
