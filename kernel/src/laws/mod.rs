@@ -15,6 +15,23 @@
 #[macro_use]
 mod declare;
 
+/// All laws that scenes can name: `each_law!(with)` is `with! { Coupling, EndStop, … }`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! each_law {
+    ($with:ident) => {
+        $with! {
+            Coupling, EndStop, HingeStop, DistanceStop, SoftEndStop, SoftHingeStop,
+            SoftDistanceStop, PlaneContact, SphereContact, WheelContact, Bushing, BushingCurves,
+            BushingMatrix, BushingMaxwell, DistanceSpring, DistanceDamper, DistanceWinch,
+            HingeSpring, HingeDamper, HingeFriction, SlideFriction, HingeServo, SlideServo,
+            HingeDrive, SlideDrive, HingeDriveFriction, SlideDriveFriction, HingeSensor,
+            SlideSensor, HingeActuator, SlideActuator, HingeDriveDq, HingeFrictionLoad,
+            SlideFrictionLoad,
+        }
+    };
+}
+
 mod actuator;
 mod branch;
 mod branches;

@@ -18,8 +18,7 @@ pub const SCHEMES: [&str; 12] = [
 /// Those of double precision: it is compiled from the same text, and its steps are nearly three times as large.
 pub const DOUBLE: [&str; 1] = ["leapfrog"];
 /// Models of laws alone.
-pub const LAWFUL: [&str; 5] =
-    ["laws-of-turns", "laws-of-travels", "laws-of-chains", "laws-of-contacts", "laws-of-mounts"];
+pub const LAWFUL: [&str; 5] = ["laws-1", "laws-2", "laws-3", "laws-4", "laws-5"];
 /// Models that are stepped with all of them.
 pub const MODELS: [&str; 2] = ["four-bar", "every-kind"];
 /// What is called between steps, with the second of these models.

@@ -351,4 +351,8 @@ mod bushings;
 #[cfg(test)]
 mod drives;
 #[cfg(test)]
+mod springs;
+#[cfg(test)]
+mod stops;
+#[cfg(test)]
 mod tests;

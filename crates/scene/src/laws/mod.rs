@@ -46,42 +46,12 @@ pub fn known_law(name: &str) -> Option<KnownLaw> {
 /// All laws that scenes can name: those of the project, those of [`laws!`](crate::laws!), those of [`register`].
 #[must_use]
 pub fn known_laws() -> Vec<KnownLaw> {
-    let mut known = vec![
-        KnownLaw::of::<laws::Coupling>("dbd_kernel::laws::Coupling"),
-        KnownLaw::of::<laws::EndStop>("dbd_kernel::laws::EndStop"),
-        KnownLaw::of::<laws::HingeStop>("dbd_kernel::laws::HingeStop"),
-        KnownLaw::of::<laws::DistanceStop>("dbd_kernel::laws::DistanceStop"),
-        KnownLaw::of::<laws::SoftEndStop>("dbd_kernel::laws::SoftEndStop"),
-        KnownLaw::of::<laws::SoftHingeStop>("dbd_kernel::laws::SoftHingeStop"),
-        KnownLaw::of::<laws::SoftDistanceStop>("dbd_kernel::laws::SoftDistanceStop"),
-        KnownLaw::of::<laws::PlaneContact>("dbd_kernel::laws::PlaneContact"),
-        KnownLaw::of::<laws::SphereContact>("dbd_kernel::laws::SphereContact"),
-        KnownLaw::of::<laws::WheelContact>("dbd_kernel::laws::WheelContact"),
-        KnownLaw::of::<laws::Bushing>("dbd_kernel::laws::Bushing"),
-        KnownLaw::of::<laws::BushingCurves>("dbd_kernel::laws::BushingCurves"),
-        KnownLaw::of::<laws::BushingMatrix>("dbd_kernel::laws::BushingMatrix"),
-        KnownLaw::of::<laws::BushingMaxwell>("dbd_kernel::laws::BushingMaxwell"),
-        KnownLaw::of::<laws::DistanceSpring>("dbd_kernel::laws::DistanceSpring"),
-        KnownLaw::of::<laws::DistanceDamper>("dbd_kernel::laws::DistanceDamper"),
-        KnownLaw::of::<laws::DistanceWinch>("dbd_kernel::laws::DistanceWinch"),
-        KnownLaw::of::<laws::HingeSpring>("dbd_kernel::laws::HingeSpring"),
-        KnownLaw::of::<laws::HingeDamper>("dbd_kernel::laws::HingeDamper"),
-        KnownLaw::of::<laws::HingeFriction>("dbd_kernel::laws::HingeFriction"),
-        KnownLaw::of::<laws::SlideFriction>("dbd_kernel::laws::SlideFriction"),
-        KnownLaw::of::<laws::HingeServo>("dbd_kernel::laws::HingeServo"),
-        KnownLaw::of::<laws::SlideServo>("dbd_kernel::laws::SlideServo"),
-        KnownLaw::of::<laws::HingeDrive>("dbd_kernel::laws::HingeDrive"),
-        KnownLaw::of::<laws::SlideDrive>("dbd_kernel::laws::SlideDrive"),
-        KnownLaw::of::<laws::HingeDriveFriction>("dbd_kernel::laws::HingeDriveFriction"),
-        KnownLaw::of::<laws::SlideDriveFriction>("dbd_kernel::laws::SlideDriveFriction"),
-        KnownLaw::of::<laws::HingeSensor>("dbd_kernel::laws::HingeSensor"),
-        KnownLaw::of::<laws::SlideSensor>("dbd_kernel::laws::SlideSensor"),
-        KnownLaw::of::<laws::HingeActuator>("dbd_kernel::laws::HingeActuator"),
-        KnownLaw::of::<laws::SlideActuator>("dbd_kernel::laws::SlideActuator"),
-        KnownLaw::of::<laws::HingeDriveDq>("dbd_kernel::laws::HingeDriveDq"),
-        KnownLaw::of::<laws::HingeFrictionLoad>("dbd_kernel::laws::HingeFrictionLoad"),
-        KnownLaw::of::<laws::SlideFrictionLoad>("dbd_kernel::laws::SlideFrictionLoad"),
-    ];
+    macro_rules! of_kernel {
+        ($($law:ident),+ $(,)?) => {
+            vec![$(KnownLaw::of::<laws::$law>(concat!("dbd_kernel::laws::", stringify!($law)))),+]
+        };
+    }
+    let mut known = dbd_kernel::each_law!(of_kernel);
     let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
     linked_laws().into_iter().chain(own.iter().cloned()).for_each(|law| put(&mut known, law));
     known

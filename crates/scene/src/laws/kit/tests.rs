@@ -1,180 +1,47 @@
 use super::*;
-use dbd_kernel::laws::{
-    Curve, Damper, DistanceDamper, DistanceSpring, DistanceStop, DistanceWinch, EndStop, Hinge,
-    HingeDamper, HingeFriction, HingeSpring, HingeStop, PlaneContact, SlideFriction,
-    SoftDistanceStop, SoftEndStop, SoftHingeStop, SphereContact, Springs, WheelContact,
-};
+use dbd_kernel::laws::{self, Damper, EndStop, Hinge, Springs};
 use dbd_kernel::space::Linear as _;
-use dbd_kernel::{BodyIndex, InputIndex, Real as _};
+use dbd_kernel::{BodyIndex, Real as _};
 
 pub(super) const BODIES: [BodyIndex; 2] = [BodyIndex(0), BodyIndex(1)];
+pub(super) const POINTS: [Vec3<f64>; 2] = [Vec3::new(0.02, 0.0, 0.01), Vec3::new(0.0, -0.03, 0.02)];
+pub(super) const HINGE: Hinge<f64> =
+    Hinge { axis: Vec3::new(0.6, 0.0, 0.8), reference: Quaternion::IDENTITY };
 
-pub(super) fn hinge() -> Hinge<f64> {
-    Hinge { axis: Vec3::new(0.6, 0.0, 0.8), reference: Quaternion::IDENTITY }
+/// A law with the constants and motions that it is tested with.
+pub(super) trait Cases: Law {
+    fn cases() -> Vec<(Self, Poses)>;
 }
 
-pub(super) fn end_stop(dissipation: f64) -> EndStop {
-    EndStop {
-        bodies: BODIES,
-        points: [Vec3::new(0.02, 0.0, 0.01), Vec3::new(0.0, -0.03, 0.02)],
-        normal: Vec3::new(0.0, 0.6, 0.8),
-        from: 0.0,
-        to: 1e30,
-        stiffness: 1e5,
-        dissipation,
-    }
+/// Cases whose motion is the default one.
+pub(super) fn by_default<L: Law>(laws: impl IntoIterator<Item = L>) -> Vec<(L, Poses)> {
+    laws.into_iter().map(|law| (law, Poses::default())).collect()
 }
 
 #[test]
 fn the_projects_laws_keep_what_laws_promise() {
-    let poses = Poses::default();
-    let plane = end_stop(0.5);
-    hold(&plane, poses).unwrap();
-    hold(&EndStop { from: -0.01, to: 0.01, ..plane }, poses).unwrap();
-    let points = plane.points;
-    for (from, to) in [(0.0, 0.03), (0.06, 1e30), (0.03, 0.05)] {
-        let stop =
-            DistanceStop { bodies: BODIES, points, from, to, stiffness: 1e5, dissipation: 0.5 };
-        hold(&stop, poses).unwrap();
+    macro_rules! holds {
+        // Between more than two bodies: `tests/mechanics`.
+        (Coupling) => {};
+        // Their force is 0, or what their memory has of the commands before.
+        (HingeSensor) => {};
+        (SlideSensor) => {};
+        (HingeActuator) => {};
+        (SlideActuator) => {};
+        ($law:ident) => {
+            let cases = laws::$law::cases();
+            assert!(!cases.is_empty(), "{}", stringify!($law));
+            for (number, (law, poses)) in cases.iter().enumerate() {
+                law.check().unwrap();
+                let name = stringify!($law);
+                hold(law, *poses).unwrap_or_else(|why| panic!("case {number} of {name}: {why}"));
+            }
+        };
     }
-    let soft = 0.02;
-    let EndStop { bodies, normal, stiffness, dissipation, .. } = plane;
-    for (from, to) in [(0.0, 1e30), (-0.01, 0.01)] {
-        let stop = SoftEndStop { bodies, points, normal, from, to, stiffness, soft, dissipation };
-        hold(&stop, poses).unwrap();
+    macro_rules! all {
+        ($($law:ident),+ $(,)?) => { $(holds!($law);)+ };
     }
-    for (from, to) in [(0.0, 0.03), (0.06, 1e30), (0.03, 0.05)] {
-        let stop = SoftDistanceStop { bodies, points, from, to, stiffness, soft, dissipation };
-        hold(&stop, poses).unwrap();
-    }
-    let (axis, [from, to]) = (hinge(), [-0.3, 0.2]);
-    let stop = SoftHingeStop { bodies, axis, from, to, stiffness, soft: 0.3, dissipation };
-    hold(&stop, poses).unwrap();
-    let friction = SlideFriction {
-        bodies: BODIES,
-        points,
-        axis: plane.normal,
-        coulomb: 4.0,
-        breakaway: 5.0,
-        stribeck: 0.01,
-        give: 1e-4,
-        damping: 0.1,
-        viscous: 0.2,
-    };
-    hold(&friction, poses).unwrap();
-    let (from, to) = (-0.3, 0.2);
-    let stop =
-        HingeStop { bodies: BODIES, axis: hinge(), from, to, stiffness: 2e3, dissipation: 0.4 };
-    hold(&stop, poses).unwrap();
-    let friction = HingeFriction {
-        bodies: BODIES,
-        axis: hinge(),
-        coulomb: 4.0,
-        breakaway: 5.0,
-        stribeck: 0.05,
-        give: 1e-3,
-        damping: 0.1,
-        viscous: 0.2,
-    };
-    hold(&friction, poses).unwrap();
-}
-
-/// A table with separate slopes on both sides of each knot.
-fn table() -> Curve<f64, 16> {
-    let mut knots = [[0.0; 2]; 16];
-    knots[..4].copy_from_slice(&[[-0.5, -80.0], [-0.05, -30.0], [0.0, 0.0], [0.03, 90.0]]);
-    Curve { knots, count: 4 }
-}
-
-#[test]
-fn tables_keep_what_laws_promise() {
-    let (poses, points) = (Poses::default(), end_stop(0.0).points);
-    let spring = DistanceSpring { bodies: BODIES, points, free_length: 0.06, force: table() };
-    hold(&spring, poses).unwrap();
-    hold(&DistanceDamper { bodies: BODIES, points, force: table() }, poses).unwrap();
-    let rope = DistanceWinch {
-        bodies: BODIES,
-        points,
-        input: InputIndex(0),
-        stiffness: 1e5,
-        damping: 50.0,
-        pulls: 1.0,
-        pushes: 0.0,
-    };
-    for (pulls, pushes) in [(1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-        let rope = DistanceWinch { pulls, pushes, ..rope };
-        hold(&rope, Poses { input: 0.06, ..poses }).unwrap();
-    }
-    hold(&HingeSpring { bodies: BODIES, axis: hinge(), torque: table() }, poses).unwrap();
-    hold(&HingeDamper { bodies: BODIES, axis: hinge(), torque: table() }, poses).unwrap();
-}
-
-#[test]
-fn a_contact_keeps_what_laws_promise() {
-    let EndStop { bodies, points, normal, .. } = end_stop(0.0);
-    let contact = PlaneContact {
-        bodies,
-        points,
-        normal,
-        radius: 0.02,
-        stiffness: 1e5,
-        dissipation: 0.5,
-        friction: 0.4,
-        shear: 0.8,
-        damping: 20.0,
-        rolling: 1e-3,
-    };
-    hold(&contact, Poses::default()).unwrap();
-    hold(&PlaneContact { radius: 0.0, friction: 0.0, ..contact }, Poses::default()).unwrap();
-}
-
-#[test]
-fn spheres_keep_what_laws_promise() {
-    let EndStop { bodies, points, .. } = end_stop(0.0);
-    let contact = SphereContact {
-        bodies,
-        points,
-        first_radius: 0.05,
-        second_radius: 0.03,
-        stiffness: 1e5,
-        dissipation: 0.5,
-        friction: 0.4,
-        shear: 0.8,
-        damping: 20.0,
-        rolling: 1e-3,
-    };
-    hold(&contact, Poses::default()).unwrap();
-    hold(&SphereContact { first_radius: 0.0, ..contact }, Poses::default()).unwrap();
-    hold(&SphereContact { friction: 0.0, ..contact }, Poses::default()).unwrap();
-}
-
-#[test]
-fn a_wheel_keeps_what_laws_promise() {
-    let EndStop { bodies, points, normal, .. } = end_stop(0.0);
-    let wheel = WheelContact {
-        bodies,
-        points,
-        normal,
-        axis: hinge(),
-        radius: 0.06,
-        tread: 0.01,
-        stiffness: 1e5,
-        dissipation: 0.5,
-        friction: 0.4,
-        slip_stiffness: 2e3,
-        cornering_stiffness: 1.5e3,
-        shear: 0.8,
-        damping: 20.0,
-        rolling: 1e-3,
-    };
-    hold(&wheel, Poses::default()).unwrap();
-    hold(&WheelContact { tread: 0.0, ..wheel }, Poses::default()).unwrap();
-    hold(&WheelContact { tread: 0.06, cornering_stiffness: 0.0, ..wheel }, Poses::default())
-        .unwrap();
-    let axis = Hinge { axis: normal, ..hinge() };
-    let lies = WheelContact { axis, friction: 0.0, ..wheel };
-    hold(&lies, Poses { turn: 0.05, ..Poses::default() }).unwrap();
-    hold(&lies, Poses { turn: 3.0, ..Poses::default() }).unwrap();
+    dbd_kernel::each_law!(all);
 }
 
 /// Counts the calls of settle.
@@ -265,7 +132,7 @@ broken!(Promising, "promising", true);
 
 #[test]
 fn a_law_that_breaks_a_rule_is_told_which() {
-    let points = [Vec3::new(0.02, 0.0, 0.01), Vec3::new(0.0, -0.03, 0.02)];
+    let points = POINTS;
     let broken = |rule| hold(&Broken { bodies: BODIES, points, rule }, Poses::default());
     broken(0).unwrap();
     for (rule, says) in [
@@ -284,7 +151,8 @@ fn a_law_that_breaks_a_rule_is_told_which() {
     let promising = |rule| hold(&Promising { bodies: BODIES, points, rule }, Poses::default());
     assert!(promising(0).unwrap_err().contains("the law sets TURNS"));
     assert!(promising(9).unwrap_err().contains("advancing does not settle"));
-    let away = EndStop { points: [Vec3::ZERO, Vec3::new(0.0, 1.0, 1.0)], ..end_stop(0.0) };
+    let [(stop, _), ..] = &EndStop::cases()[..] else { panic!() };
+    let away = EndStop { points: [Vec3::ZERO, Vec3::new(0.0, 1.0, 1.0)], ..*stop };
     let near = Poses { reach: 1e-9, turn: 1e-9, ..Poses::default() };
     assert!(hold(&away, near).unwrap_err().contains("no effect at any pose"));
 }

@@ -4,18 +4,10 @@
 //! point; of double precision, which is compiled from the same text, leapfrog, and pefrl with the four-bar. Every law with
 //! leapfrog, every other shipped model with leapfrog in single precision, some in fixed point.
 
-use dbd_kernel::laws::{
-    Bushing, BushingCurves, BushingMatrix, BushingMaxwell, Coupling, DistanceDamper,
-    DistanceSpring, DistanceStop, DistanceWinch, EndStop, HingeActuator, HingeDamper, HingeDrive,
-    HingeDriveDq, HingeDriveFriction, HingeFriction, HingeFrictionLoad, HingeSensor, HingeServo,
-    HingeSpring, HingeStop, PlaneContact, SlideActuator, SlideDrive, SlideDriveFriction,
-    SlideFriction, SlideFrictionLoad, SlideSensor, SlideServo, SoftDistanceStop, SoftEndStop,
-    SoftHingeStop, SphereContact, WheelContact,
-};
 use dbd_kernel::model::Planned;
 use dbd_kernel::{
     BlanesMoanS6, Dbd, DbdP1, DbdP2, Explicit, F32, F64, Failure, Fixed, GeneralizedAlpha,
-    GeneralizedAlpha3, JointWise, Leapfrog, Model, Pefrl, Plant, Rk4, SemiImplicitEuler,
+    GeneralizedAlpha3, JointWise, Leapfrog, Model, Pefrl, Plant, Rk4, SemiImplicitEuler, laws,
 };
 use firmware::alone::Alone;
 use firmware::models::{
@@ -34,70 +26,6 @@ pub type EveryKindPlanned<P> = Planned<&'static EveryKind<P>, 4, 6, 4, 8>;
 
 /// Bodies with laws between them alone.
 type Lawful<P, L> = Model<P, 3, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 3, 0, L>;
-
-/// The laws about axes.
-type OfTurns<P> = Lawful<
-    P,
-    (
-        [HingeStop<P>; 1],
-        [SoftHingeStop<P>; 1],
-        [HingeFriction<P>; 1],
-        [HingeSpring<P>; 1],
-        [HingeDamper<P>; 1],
-        [HingeServo<P>; 1],
-        [HingeDrive<P>; 1],
-        [HingeDriveFriction<P>; 1],
-    ),
->;
-
-/// The laws along ways.
-type OfTravels<P> = Lawful<
-    P,
-    (
-        [DistanceSpring<P>; 1],
-        [DistanceDamper<P>; 1],
-        [DistanceWinch<P>; 1],
-        [SlideFriction<P>; 1],
-        [SlideServo<P>; 1],
-        [SlideDrive<P>; 1],
-        [SlideDriveFriction<P>; 1],
-    ),
->;
-
-/// Sensors and actuators.
-type OfChains<P> = Lawful<
-    P,
-    ([HingeSensor<P>; 1], [SlideSensor<P>; 1], [HingeActuator<P>; 1], [SlideActuator<P>; 1]),
->;
-
-/// Stops and contacts.
-type OfContacts<P> = Lawful<
-    P,
-    (
-        [EndStop<P>; 1],
-        [SoftEndStop<P>; 1],
-        [DistanceStop<P>; 1],
-        [SoftDistanceStop<P>; 1],
-        [PlaneContact<P>; 1],
-        [SphereContact<P>; 1],
-        [WheelContact<P>; 1],
-    ),
->;
-
-/// Couplings, mounts, windings in rotor axes, friction of a load.
-type OfMounts<P> = Lawful<
-    P,
-    (
-        [Coupling<P>; 1],
-        [Bushing<P>; 1],
-        [BushingCurves<P>; 1],
-        [BushingMatrix<P>; 1],
-        [BushingMaxwell<P>; 1],
-        [HingeDriveDq<P>; 1],
-        [HingeFrictionLoad<P>; 1],
-        [SlideFrictionLoad<P>; 1],
-    ),
->;
 
 macro_rules! step {
     ($keep:ident, $model:literal $type:ty, $name:literal $scheme:ty, $precision:literal) => {{
@@ -148,18 +76,24 @@ pub fn keep(keep: Keep) {
         };
     }
     step!(keep, "every-kind" EveryKind<F64>, "leapfrog" Leapfrog, "f64");
+    // Every law, up to eight in a model.
     macro_rules! lawful {
-        ($($precision:ident $name:literal)*) => {
-            $(
-                step!(keep, "laws-of-turns" OfTurns<$precision>, "leapfrog" Leapfrog, $name);
-                step!(keep, "laws-of-travels" OfTravels<$precision>, "leapfrog" Leapfrog, $name);
-                step!(keep, "laws-of-chains" OfChains<$precision>, "leapfrog" Leapfrog, $name);
-                step!(keep, "laws-of-contacts" OfContacts<$precision>, "leapfrog" Leapfrog, $name);
-                step!(keep, "laws-of-mounts" OfMounts<$precision>, "leapfrog" Leapfrog, $name);
-            )*
+        ([$name:literal $($names:literal)*]
+            $a:ident, $b:ident, $c:ident, $d:ident, $e:ident, $f:ident, $g:ident, $h:ident, $($rest:ident),+ $(,)?) => {
+            lawful!([$name] $a, $b, $c, $d, $e, $f, $g, $h);
+            lawful!([$($names)*] $($rest),+);
+        };
+        ([$name:literal] $($law:ident),+ $(,)?) => {
+            step!(keep, $name Lawful<F32, ($([laws::$law<F32>; 1],)+)>, "leapfrog" Leapfrog, "f32");
+            step!(keep, $name Lawful<Fixed, ($([laws::$law<Fixed>; 1],)+)>, "leapfrog" Leapfrog, "fixed");
         };
     }
-    lawful!(F32 "f32" Fixed "fixed");
+    macro_rules! every_law {
+        ($($law:ident),+ $(,)?) => {
+            lawful!(["laws-1" "laws-2" "laws-3" "laws-4" "laws-5"] $($law),+);
+        };
+    }
+    dbd_kernel::each_law!(every_law);
     firmware::shipped!(shipped);
     firmware::fixed!(fixed);
     firmware::shipped_f32!(shipped_f32);
