@@ -1,7 +1,5 @@
 //! Line numbers of the tables of a scene.
 
-use crate::error::SceneError;
-use crate::free_length::winches;
 use crate::text::Table;
 
 /// Lines from 1, per kind in scene order.
@@ -10,7 +8,7 @@ pub(crate) struct FileLines {
     pub(crate) bodies: Vec<usize>,
     pub(crate) joints: Vec<usize>,
     pub(crate) tsdas: Vec<usize>,
-    /// The rows of the TSDAs that are elements of the model.
+    /// The rows of the TSDAs that are groups of the model, each by its first.
     pub(crate) raw_tsdas: Vec<usize>,
     pub(crate) points_on_lines: Vec<usize>,
     pub(crate) torsion_springs: Vec<usize>,
@@ -22,21 +20,19 @@ pub(crate) struct FileLines {
 
 impl FileLines {
     /// The lines of all tables of the scene.
-    pub(crate) fn of(root: &Table<'_>) -> Result<Self, SceneError> {
-        let tsdas = root.lines("tsda");
-        let winches = winches(root)?;
-        Ok(Self {
+    pub(crate) fn of(root: &Table<'_>, raw_tsdas: Vec<usize>) -> Self {
+        Self {
             bodies: root.lines("body"),
             joints: root.lines("joint"),
-            raw_tsdas: (0..tsdas.len()).filter(|row| !winches.contains_key(row)).collect(),
-            tsdas,
+            raw_tsdas,
+            tsdas: root.lines("tsda"),
             points_on_lines: root.lines("point_on_line"),
             torsion_springs: root.lines("torsion_spring"),
             interactions: root.lines("interaction"),
             couplings: root.lines("coupling"),
             inputs: root.lines("input"),
             readouts: root.lines("readout"),
-        })
+        }
     }
 }
 

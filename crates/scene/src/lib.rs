@@ -11,7 +11,7 @@
 //!   texts and numbers, files.
 //! - [`quantity`], [`mod@time`], `written`, `error`, `direction`, `text`, `names`, `target`, `free_length`, `file_lines`, `origin`,
 //!   [`parameters`]: values with units; the tables of a file with their positions and errors; names and `[parameters]`.
-//! - `drive`, `hinge`, `pair`, `spring`, `solid`, `derived`, `columns`: the contents of tables, as data.
+//! - `drive`, `hinge`, `pair`, `spring`, `raw_groups`, `solid`, `derived`, `columns`: the contents of tables, as data.
 //! - [`mod@laws`], `elimination`, `runtime`, [`default_step`]: laws between bodies, and a model whose sizes are known at
 //!   run time.
 //! - `orientation`, `inertia`, `parts`, `closure`: attitudes, moments of inertia, and the pose that closes joints.
@@ -71,6 +71,7 @@ mod point_on_line;
 mod points;
 mod precise;
 pub mod quantity;
+mod raw_groups;
 mod read;
 mod readout;
 pub mod reduction;

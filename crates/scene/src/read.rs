@@ -212,7 +212,8 @@ impl Scene {
         let assembled = joints::assemble(&root, &mut assembly)?;
         let mut elements = Elements::default();
         let (joints, places) = joints::read_all(&root, &mut assembly, &mut elements)?;
-        let mut raw_names = tsda::read_all(&root, &mut assembly, &mut elements)?;
+        let tsda::Raw { names: mut raw_names, rows: raw_tsdas } =
+            tsda::read_all(&root, planar, &mut assembly, &mut elements)?;
         raw_names.extend(point_on_line::read_all(&root, &mut assembly, &mut elements)?);
         let mut torsion_names = torsion_spring::read_all(&root, &mut assembly, &mut elements)?;
         let laws = interaction::read_all(&root, &places, &mut assembly, &mut elements)?;
@@ -249,7 +250,7 @@ impl Scene {
             model,
             planar: None,
             assembled_states,
-            file_lines: FileLines::of(&root)?,
+            file_lines: FileLines::of(&root, raw_tsdas),
             origin: Origin::of(source, &root),
             written_angles: Vec::new(),
             derived,

@@ -8,6 +8,7 @@ use crate::error::SceneError;
 use crate::free_length::winches;
 use crate::pair::Pair;
 use crate::points::PlaceOf;
+use crate::raw_groups::{Leg, raw_groups};
 use crate::spring;
 use crate::target::{Elements, Target};
 use crate::text::{Kind, Number, Table, Value};
@@ -17,52 +18,96 @@ pub(crate) const KEYS: &[&str] = &["name", "between", "points", "free_length", "
 /// Points closer than this fraction of the free length define no direction.
 const COINCIDENT: f64 = 1e-9;
 
-/// Reads all raw TSDAs in scene order and names them for messages; those with a free length that an input sets are
-/// laws.
+/// The raw TSDAs of a scene as groups of the model.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Raw {
+    /// The name of each in messages.
+    pub(crate) names: Vec<String>,
+    /// The row of the first table of each.
+    pub(crate) rows: Vec<usize>,
+}
+
+/// A raw TSDA as it was read.
+struct Read<'t> {
+    row: usize,
+    table: Table<'t>,
+    leg: Leg,
+    names: [String; 2],
+}
+
+/// Reads all raw TSDAs in scene order; those with a free length that an input sets are laws. TSDAs that write a joint
+/// out become one group, see [`raw_groups`].
 pub(crate) fn read_all(
     root: &Table<'_>,
+    planar: bool,
     assembly: &mut Assembly,
     elements: &mut Elements,
-) -> Result<Vec<String>, SceneError> {
-    let mut labels = Vec::new();
+) -> Result<Raw, SceneError> {
     let winches = winches(root)?;
+    let mut all = Vec::new();
     for (row, table) in root.list("tsda")?.into_iter().enumerate() {
         table.only(&[KEYS, spring::KEYS])?;
         if winches.contains_key(&row) {
             continue;
         }
-        if table.has("acts") {
-            let help = "drive the free length by an input of the type \"free_length\", or use the law \
-                `distance-spring` of an interaction with a `force` on one side only";
-            return Err(table.refuse_key("acts", "needs an input of the free length", help));
-        }
-        let target = Target::Tsda(assembly.groups().len());
-        elements.read_optional(&table, "tsda", target)?;
-        let pair = table.required("between", Between(assembly))?;
-        let [a, b] = table.required("points", TwoPoints { assembly, pair: &pair })?;
-        let spring = spring::read(&table, spring::AXIAL)?;
-        let d = assembly.place(pair.b, b) - assembly.place(pair.a, a);
-        let distance = libm::sqrt(d.dot(d));
-        let Some(free_length) = table.optional("free_length", FreeLength { distance })? else {
-            let help = format!("add `free_length`: {}", FreeLength { distance }.expected());
-            return Err(table.refuse("has no `free_length`, and no input sets it", help));
-        };
-        if free_length > 0.0 && distance <= COINCIDENT * free_length {
-            let help = "give two different points, or use `free_length = 0` for a spring that is \
-                isotropic";
-            let problem = "coincide, but `free_length` is not 0";
-            return Err(table.refuse_value("points", problem, help));
-        }
-        let points = Points { centres: &[a], tips: &[b], shared: false };
-        if free_length > 0.0 {
-            assembly.add_tsdas(&pair, points, free_length, spring)
-        } else {
-            assembly.add_bushings(&pair, points, 0.0, spring)
-        }
-        .map_err(|defect| defect.refuse(&table))?;
-        labels.push(pair.label(&table));
+        all.push(read(row, table, assembly)?);
     }
-    Ok(labels)
+    let mut raw = Raw::default();
+    let legs: Vec<_> = all.iter().map(|one| one.leg).collect();
+    for group in raw_groups(&legs, planar) {
+        let (Some(first), Some(last)) = (group.rows().next(), group.rows().next_back()) else {
+            continue;
+        };
+        let Read { row, table, leg, names } = &all[first];
+        elements.read_optional(table, "tsda", Target::Tsda(assembly.groups().len()))?;
+        let ([a, b], [from, to]) = (leg.bodies, leg.points);
+        let pair = Pair { a, b, names: names.clone() };
+        let mut label = pair.label(table);
+        if last > first {
+            label =
+                format!("tsda {} to {} ({}–{})", row + 1, all[last].row + 1, names[0], names[1]);
+        }
+        if leg.free_length == 0.0 {
+            let points = Points { centres: &[from], tips: &[to], shared: false };
+            assembly.add_bushings(&pair, points, 0.0, leg.spring)
+        } else {
+            let pair = if group.is_reversed { pair.reversed() } else { pair };
+            let [centres, tips] = [group.centres(&legs), group.tips(&legs)];
+            let points = Points { centres: &centres, tips: &tips, shared: centres.len() > 1 };
+            assembly.add_tsdas(&pair, points, leg.free_length, leg.spring)
+        }
+        .map_err(|defect| defect.refuse(table))?;
+        raw.names.push(label);
+        raw.rows.push(*row);
+    }
+    Ok(raw)
+}
+
+fn read<'t>(row: usize, table: Table<'t>, assembly: &Assembly) -> Result<Read<'t>, SceneError> {
+    if table.has("acts") {
+        let help = "drive the free length by an input of the type \"free_length\", or use the law \
+            `distance-spring` of an interaction with a `force` on one side only";
+        return Err(table.refuse_key("acts", "needs an input of the free length", help));
+    }
+    let pair = table.required("between", Between(assembly))?;
+    let points = table.required("points", TwoPoints { assembly, pair: &pair })?;
+    let spring = spring::read(&table, spring::AXIAL)?;
+    let d = assembly.place(pair.b, points[1]) - assembly.place(pair.a, points[0]);
+    let distance = libm::sqrt(d.dot(d));
+    let Some(free_length) = table.optional("free_length", FreeLength { distance })? else {
+        let help = format!("add `free_length`: {}", FreeLength { distance }.expected());
+        return Err(table.refuse("has no `free_length`, and no input sets it", help));
+    };
+    if free_length > 0.0 && distance <= COINCIDENT * free_length {
+        let help = "give two different points, or use `free_length = 0` for a spring that is \
+            isotropic";
+        let problem = "coincide, but `free_length` is not 0";
+        return Err(table.refuse_value("points", problem, help));
+    }
+    let bodies = [pair.a, pair.b];
+    let is_alone = table.has("name") || table.has("limits") || free_length == 0.0;
+    let leg = Leg { bodies, points, free_length, spring, is_alone };
+    Ok(Read { row, table, leg, names: pair.names })
 }
 
 /// A length, or `"initial"` for the length at the initial pose.

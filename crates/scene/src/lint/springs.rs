@@ -104,13 +104,13 @@ impl Spring<'_> {
     }
 
     fn shortness(&self) -> Option<(Severity, String)> {
-        let GroupFacts { free_length, longest, .. } = *self.facts;
+        let GroupFacts { free_length, shortest, .. } = *self.facts;
         // A point on a line may start at any smaller distance.
-        (self.group.law == Law::Tsda && longest < SHORT * free_length).then(|| {
+        (self.group.law == Law::Tsda && shortest < SHORT * free_length).then(|| {
             let text = format!(
                 "is {} m long at t = 0, less than half its free length of {} m; check that its \
                  points are in the axes of their bodies and its free length is in m",
-                short(longest),
+                short(shortest),
                 short(free_length)
             );
             (Severity::Warning, text)

@@ -36,32 +36,51 @@ pub(super) fn read(
     for (row, group) in scene.model.groups.iter().enumerate() {
         let elements = placed.elements(group);
         let clearance = group.clearance.row().and_then(|row| scene.model.clearances.get(row));
-        let part = match owners.next() {
+        // Raw elements stay what they are, each by itself.
+        let (part, at_once) = match owners.next() {
             Some(joint) => {
                 let turns = turns(scene, plane, joint);
                 stays(Part::Joint(joint), &elements, turns, near, leaves);
-                Part::Joint(joint)
+                (Part::Joint(joint), elements.len())
             }
             None => {
                 lies(Part::Raw(row - raw), &elements, near, leaves);
-                Part::Raw(row - raw)
+                (Part::Raw(row - raw), 1)
             }
         };
         let law = match group.law {
             Law::Revolute | Law::Universal => Law::PointBushing,
             law => law,
         };
-        match reduced(law, &elements, clearance.copied().unwrap_or(0.0), near) {
-            Ok(found) => {
+        let clearance = clearance.copied().unwrap_or(0.0);
+        let found = elements.chunks(at_once.max(1)).map(|some| reduced(law, some, clearance, near));
+        match found.collect::<Result<Vec<_>, _>>().map(|found| together(found, group)) {
+            Ok(Some(found)) => {
                 if !found.is_exact {
                     at_rest.push(row);
                 }
                 add(model, &states, group, &found);
             }
+            Ok(None) => {}
             Err(obstacle) => leaves(part, "type", &format!(": it {obstacle}")),
         }
     }
     at_rest
+}
+
+/// The elements of a group that were reduced one by one, as its triples; `None` without any.
+fn together(each: Vec<Reduced>, group: &Group) -> Option<Reduced> {
+    let mut each = each.into_iter();
+    let mut all = each.next()?;
+    let (one, arms) = (all.triples.len(), usize::from(group.arms));
+    for other in each {
+        all.is_exact &= other.is_exact;
+        all.triples.extend(other.triples);
+    }
+    if all.triples.len() > one && all.triples.iter().all(|triple| triple.len() == 1) {
+        all.triples = all.triples.concat().chunks(arms).map(<[_]>::to_vec).collect();
+    }
+    Some(all)
 }
 
 /// \[degrees\] tilt of the axis of a revolute joint, or the nearer axis of a universal joint, against the normal;

@@ -17,6 +17,8 @@ mod parameters;
 mod planar;
 mod properties;
 mod quantities;
+mod raw_groups;
 mod realisations;
+
 mod warnings;
 mod winches;

@@ -22,18 +22,20 @@ pub(super) fn raw(scene: &Scene, mechanism: &Mechanism) -> (Vec<SpringMark>, Vec
     let first = scene.joints.iter().map(|joint| joint.groups.end).max().unwrap_or(0);
     let raw = model.groups.iter().enumerate().skip(first);
     for ((number, group), label) in raw.zip(scene.raw_names()) {
-        let (Some(centre), Some(tip)) = (centres(scene, group).first(), tips(scene, group).first())
-        else {
-            continue;
-        };
         let name = named(label);
-        let ends = [
-            Place { body: row(group.a), point: centre.to_f64() },
-            Place { body: row(group.b), point: tip.to_f64() },
-        ];
+        let (centres, tips) = (centres(scene, group), tips(scene, group));
+        let ends = |element: usize| {
+            let (triple, leg) = (element / usize::from(group.arms), element % tips.len().max(1));
+            let (centre, tip) = (centres.get(triple)?, tips.get(leg)?);
+            Some([
+                Place { body: row(group.a), point: centre.to_f64() },
+                Place { body: row(group.b), point: tip.to_f64() },
+            ])
+        };
         match group.law {
             Law::PointOnLine => {
-                let Some(line) = model.lines.get(usize::from(group.element)) else { continue };
+                let line = model.lines.get(usize::from(group.element));
+                let (Some(line), Some(ends)) = (line, ends(0)) else { continue };
                 let direction = Along { body: row(group.a), vector: line.direction.to_f64() };
                 let [from, point] = [ends[0], ends[1]].map(|end| mechanism.place(&end));
                 let n = mechanism.along(&direction);
@@ -41,12 +43,10 @@ pub(super) fn raw(scene: &Scene, mechanism: &Mechanism) -> (Vec<SpringMark>, Vec
                 guides.push(GuideMark { name, line: foot, direction, point: ends[1] });
             }
             Law::Tsda | Law::PointBushing | Law::Revolute | Law::Universal => {
-                springs.push(SpringMark {
-                    name,
-                    ends,
-                    free_length: free_length(scene, group),
-                    driven: driven.contains(&number),
-                })
+                let (free_length, driven) = (free_length(scene, group), driven.contains(&number));
+                let marks = (0..group.elements()).filter_map(ends);
+                let mark = |ends| SpringMark { name: name.clone(), ends, free_length, driven };
+                springs.extend(marks.map(mark));
             }
         }
     }
