@@ -7,3 +7,4 @@ mod judged;
 mod lockstep;
 mod planar;
 mod plant;
+mod raw_groups;

@@ -47,6 +47,8 @@ const LEAST: f64 = 1.0 / 64.0;
 pub(super) struct Model {
     pub(super) name: &'static str,
     pub(super) scene: Scene,
+    /// Its name in the table of costs.
+    counted: Option<String>,
     limits: Limits,
     frequencies: Frequencies,
     /// Failure with short steps, if checked.
@@ -118,6 +120,7 @@ impl<'s> Search<'s> {
         let own = Variant { name: AS_IT_IS, scene: scene.clone() };
         let model = |Variant { name, scene }: Variant| Model {
             name,
+            counted: request.shipped.as_ref().and_then(|shipped| counted_as(shipped, &scene)),
             limits: Limits::of(&scene),
             frequencies: Frequencies::of(&scene),
             scene,
@@ -151,8 +154,7 @@ impl<'s> Search<'s> {
         for (row, model) in self.models.iter().enumerate() {
             let methods = ways(&model.scene, false).into_iter().filter_map(|way| way.method());
             for method in methods {
-                let Some((instructions, counted)) =
-                    self.instructions(&model.scene, &method, &costs)
+                let Some((instructions, counted)) = self.instructions(model, &method, &costs)
                 else {
                     continue;
                 };
@@ -166,16 +168,10 @@ impl<'s> Search<'s> {
     }
 
     /// Instructions of a step on the microcontroller, and whether they were counted.
-    pub(super) fn instructions(
-        &self,
-        scene: &Scene,
-        method: &Method,
-        costs: &Costs,
-    ) -> Option<(f64, bool)> {
-        let shipped = self.request.shipped.as_ref();
-        let counted = shipped.and_then(|shipped| counted_as(shipped, scene)).and_then(|called| {
+    fn instructions(&self, model: &Model, method: &Method, costs: &Costs) -> Option<(f64, bool)> {
+        let counted = model.counted.as_ref().and_then(|called| {
             costs.instructions_per_step(
-                &called,
+                called,
                 method.scheme_name(),
                 method.newton(),
                 method.foreign_damping().map(|damping| damping.name()),
@@ -185,7 +181,7 @@ impl<'s> Search<'s> {
         });
         let on_m4f = match counted {
             Some(counted) => counted,
-            None => estimate::instructions(scene, method, costs)?,
+            None => estimate::instructions(&model.scene, method, costs)?,
         };
         let here = self.request.mcu.instructions(method.precision(), on_m4f)?;
         Some((here, counted.is_some()))
