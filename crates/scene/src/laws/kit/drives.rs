@@ -1,6 +1,6 @@
 //! Servos and drives.
 
-use super::tests::{BODIES, Cases, HINGE, POINTS, by_default};
+use super::tests::{AXIS, BODIES, Cases, HINGE, POINTS, by_default};
 use super::*;
 use dbd_kernel::InputIndex;
 use dbd_kernel::laws::{
@@ -9,7 +9,6 @@ use dbd_kernel::laws::{
 };
 
 const INPUT: InputIndex = InputIndex(0);
-const AXIS: Vec3<f64> = Vec3::new(0.0, 0.6, 0.8);
 /// Play \[rad, m\] and damping of gears.
 const GEARS: [(f64, f64); 3] = [(0.0, 0.0), (0.0, 0.7), (0.02, 0.7)];
 

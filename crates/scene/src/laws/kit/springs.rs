@@ -1,14 +1,12 @@
 //! Springs and dampers by tables, winches, friction.
 
-use super::tests::{BODIES, Cases, HINGE, POINTS, by_default};
+use super::tests::{AXIS, BODIES, Cases, HINGE, POINTS, by_default};
 use super::*;
 use dbd_kernel::laws::{
     Curve, DistanceDamper, DistanceSpring, DistanceWinch, HingeDamper, HingeFriction,
     HingeFrictionLoad, HingeSpring, SlideFriction, SlideFrictionLoad,
 };
 use dbd_kernel::{GroupIndex, InputIndex};
-
-const AXIS: Vec3<f64> = Vec3::new(0.0, 0.6, 0.8);
 
 /// A table with separate slopes on both sides of each knot.
 fn table() -> Curve<f64, 16> {

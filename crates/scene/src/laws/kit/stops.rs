@@ -1,13 +1,12 @@
 //! Stops and contacts.
 
-use super::tests::{BODIES, Cases, HINGE, POINTS, by_default};
+use super::tests::{AXIS, BODIES, Cases, HINGE, POINTS, by_default};
 use super::*;
 use dbd_kernel::laws::{
     DistanceStop, EndStop, Hinge, HingeStop, PlaneContact, SoftDistanceStop, SoftEndStop,
     SoftHingeStop, SphereContact, WheelContact,
 };
 
-const NORMAL: Vec3<f64> = Vec3::new(0.0, 0.6, 0.8);
 /// Ranges of stops: of travel, of a distance \[m\], of an angle \[rad\].
 const TRAVELS: [[f64; 2]; 2] = [[0.0, 1e30], [-0.01, 0.01]];
 const DISTANCES: [[f64; 2]; 3] = [[0.0, 0.03], [0.06, 1e30], [0.03, 0.05]];
@@ -18,7 +17,7 @@ impl Cases for EndStop {
         by_default(TRAVELS.map(|[from, to]| Self {
             bodies: BODIES,
             points: POINTS,
-            normal: NORMAL,
+            normal: AXIS,
             from,
             to,
             stiffness: 1e5,
@@ -32,7 +31,7 @@ impl Cases for SoftEndStop {
         by_default(TRAVELS.map(|[from, to]| Self {
             bodies: BODIES,
             points: POINTS,
-            normal: NORMAL,
+            normal: AXIS,
             from,
             to,
             stiffness: 1e5,
@@ -90,7 +89,7 @@ impl Cases for PlaneContact {
         let contact = Self {
             bodies: BODIES,
             points: POINTS,
-            normal: NORMAL,
+            normal: AXIS,
             radius: 0.02,
             stiffness: 1e5,
             dissipation: 0.5,
@@ -127,7 +126,7 @@ impl Cases for WheelContact {
         let wheel = Self {
             bodies: BODIES,
             points: POINTS,
-            normal: NORMAL,
+            normal: AXIS,
             axis: HINGE,
             radius: 0.06,
             tread: 0.01,
@@ -142,7 +141,7 @@ impl Cases for WheelContact {
         };
         let sharp = Self { tread: 0.0, ..wheel };
         let round = Self { tread: 0.06, cornering_stiffness: 0.0, ..wheel };
-        let lies = Self { axis: Hinge { axis: NORMAL, ..HINGE }, friction: 0.0, ..wheel };
+        let lies = Self { axis: Hinge { axis: AXIS, ..HINGE }, friction: 0.0, ..wheel };
         let turns = [0.05, 3.0].map(|turn| (lies, Poses { turn, ..Poses::default() }));
         [by_default([wheel, sharp, round]), turns.into()].concat()
     }

@@ -5,6 +5,7 @@ use dbd_kernel::{BodyIndex, Real as _};
 
 pub(super) const BODIES: [BodyIndex; 2] = [BodyIndex(0), BodyIndex(1)];
 pub(super) const POINTS: [Vec3<f64>; 2] = [Vec3::new(0.02, 0.0, 0.01), Vec3::new(0.0, -0.03, 0.02)];
+pub(super) const AXIS: Vec3<f64> = Vec3::new(0.0, 0.6, 0.8);
 pub(super) const HINGE: Hinge<f64> =
     Hinge { axis: Vec3::new(0.6, 0.0, 0.8), reference: Quaternion::IDENTITY };
 
@@ -21,7 +22,7 @@ pub(super) fn by_default<L: Law>(laws: impl IntoIterator<Item = L>) -> Vec<(L, P
 #[test]
 fn the_projects_laws_keep_what_laws_promise() {
     macro_rules! holds {
-        // Between more than two bodies: `tests/mechanics`.
+        // Between more than two bodies: `tests/elements/couplings.rs`.
         (Coupling) => {};
         // Their force is 0, or what their memory has of the commands before.
         (HingeSensor) => {};
