@@ -50,8 +50,8 @@ pub(crate) fn turn_freely<P: Geometry>(
     time: P::Real,
 ) {
     let zero = P::Real::ZERO;
-    if P::Real::ONE_LANE && !tumbles::<P>(rate) {
-        let w = P::spin(rate).in_space();
+    let w = P::spin(rate).in_space();
+    if P::Real::ONE_LANE && turns_in_plane::<P>(rate) {
         // In planar motion only the rotation about z is nonzero, so it equals all five.
         if w.z != zero {
             let turn = Turn::by(time * w.z);
@@ -67,14 +67,14 @@ pub(crate) fn turn_freely<P: Geometry>(
     five_turns::<P>(body, orientation, rate, time);
 }
 
-/// Whether [`turn_freely`] takes five rotations: a body rotates about another axis than z.
+/// Whether [`turn_freely`] takes one rotation, not five: a body rotates about no other axis than z.
 #[inline(always)]
-pub(crate) fn tumbles<P: Geometry>(rate: &P::Spin) -> bool {
+pub(crate) fn turns_in_plane<P: Geometry>(rate: &P::Spin) -> bool {
     let w = P::spin(rate).in_space();
-    w.x != P::Real::ZERO || w.y != P::Real::ZERO
+    w.x == P::Real::ZERO && w.y == P::Real::ZERO
 }
 
-/// [`free_rotor`] of bodies in space; `false`, and nothing is changed, where one of them does not tumble. Their rotations
+/// [`free_rotor`] of bodies in space; `false`, and nothing is changed, where one of them takes one rotation. Their rotations
 /// alternate: a processor computes one while that of another body waits for the rotation before it. For one lane.
 #[inline(always)]
 pub(crate) fn free_rotors<P: Geometry, const N: usize>(
@@ -82,7 +82,7 @@ pub(crate) fn free_rotors<P: Geometry, const N: usize>(
     states: &mut [BodyState<P>; N],
     time: P::Real,
 ) -> bool {
-    if !states.iter().all(|state| tumbles::<P>(&state.angular_velocity)) {
+    if states.iter().any(|state| turns_in_plane::<P>(&state.angular_velocity)) {
         return false;
     }
     let (half, none) = (P::Real::HALF * time, P::Real::mask(false));

@@ -4,12 +4,13 @@
 //! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal ½·h·D⁻¹ is computed once per (model, step),
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
 
+mod abreast;
 mod body;
 mod damped;
 mod driven;
 mod solved;
 
-use body::{ABREAST, move_abreast, move_apart};
+use body::move_apart;
 pub(crate) use body::{drift_body, drift_to_frame, kick_body};
 pub(crate) use driven::drive;
 
@@ -383,47 +384,11 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     pub fn drift(&mut self, time: P::Real) {
         self.cache.fresh = false;
         self.cache.ready = false;
-        if self.is_tumbling() {
-            return self.move_all(None, time, false);
+        if self.moves_abreast() {
+            return self.move_abreast(None, time, false);
         }
         for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
             drift_body::<P, T>(state, body, time);
-        }
-    }
-
-    /// Whether bodies move two at a time: where the first or the last of several tumbles, and the model is sized at run
-    /// time, in space, in floating point and alone. Processors of 32 bits compute in order and would gain nothing.
-    #[inline(always)]
-    fn is_tumbling(&self) -> bool {
-        let abreast = cfg!(target_pointer_width = "64")
-            && (T::ALL && P::Real::ONE_LANE && !P::Space::PLANAR && !P::RESTS);
-        let [first, .., last] = &*self.bodies else { return false };
-        abreast && [first, last].iter().any(|body| rotation::tumbles::<P>(&body.angular_velocity))
-    }
-
-    /// Kicks every body by `scale`, if any, moves it freely for `time` \[s\], and updates its frame where `place`. Not
-    /// inlined: one copy for all schemes.
-    #[inline(never)]
-    fn move_all(&mut self, scale: Option<P::Real>, time: P::Real, place: bool) {
-        let kick = scale.map(|scale| (scale, self.fall(scale)));
-        let how = (time, place);
-        let (states, last_states) = self.bodies.as_chunks_mut::<ABREAST>();
-        let (frames, last_frames) = self.frames.as_chunks_mut::<ABREAST>();
-        let (bodies, last_bodies) = self.model.bodies.as_chunks::<ABREAST>();
-        let (wrenches, last_wrenches) = self.wrenches.as_chunks::<ABREAST>();
-        let (diagonals, last_diagonals) = self.diagonals.as_chunks::<ABREAST>();
-        let forces = wrenches.iter().zip(diagonals);
-        for ((moved, bodies), forces) in states.iter_mut().zip(frames).zip(bodies).zip(forces) {
-            move_abreast::<P, T, ABREAST>(moved, bodies, forces, kick, how);
-        }
-        let (states, _) = last_states.as_chunks_mut::<1>();
-        let (frames, _) = last_frames.as_chunks_mut::<1>();
-        let (bodies, _) = last_bodies.as_chunks::<1>();
-        let (wrenches, _) = last_wrenches.as_chunks::<1>();
-        let (diagonals, _) = last_diagonals.as_chunks::<1>();
-        let forces = wrenches.iter().zip(diagonals);
-        for ((moved, bodies), forces) in states.iter_mut().zip(frames).zip(bodies).zip(forces) {
-            move_abreast::<P, T, 1>(moved, bodies, forces, kick, how);
         }
     }
 
@@ -432,8 +397,8 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
         self.cache.fresh = false;
         self.cache.ready = false;
-        if self.is_tumbling() {
-            return self.move_all(Some(scale), time, false);
+        if self.moves_abreast() {
+            return self.move_abreast(Some(scale), time, false);
         }
         let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies);
@@ -450,8 +415,8 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         self.cache.fresh = false;
         self.cache.ready = false;
         self.cache.moved = true;
-        if self.is_tumbling() {
-            return self.move_all(None, time, true);
+        if self.moves_abreast() {
+            return self.move_abreast(None, time, true);
         }
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
         for ((state, body), frame) in rows {
@@ -470,8 +435,8 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         self.cache.fresh = false;
         self.cache.ready = false;
         self.cache.moved = true;
-        if self.is_tumbling() {
-            return self.move_all(Some(scale), time, true);
+        if self.moves_abreast() {
+            return self.move_abreast(Some(scale), time, true);
         }
         let fall = self.fall(scale);
         let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
