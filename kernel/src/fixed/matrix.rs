@@ -43,7 +43,7 @@ impl Carry {
 }
 
 /// The matrix of a pose that a body has reached in a step.
-#[inline(always)]
+#[cfg_attr(not(target_pointer_width = "64"), inline(always))]
 pub(super) fn next(w: i64, v: [i64; 3], carry: &mut Carry) -> [[i32; 3]; 3] {
     let (w, [x, y, z]) = (halves(w), v.map(halves));
     let [xx, yy, zz] = [x, y, z].map(square_of_halves);
@@ -65,7 +65,7 @@ pub(super) fn next(w: i64, v: [i64; 3], carry: &mut Carry) -> [[i32; 3]; 3] {
 }
 
 /// [`next`] of a pose rotated about z only: the same bits.
-#[inline(always)]
+#[cfg_attr(not(target_pointer_width = "64"), inline(always))]
 pub(super) fn next_about_z(w: i64, z: i64, carry: &mut Carry) -> [[i32; 3]; 3] {
     let (w, z) = (halves(w), halves(z));
     let turned = sum_of_products([(w, z)]);

@@ -11,6 +11,8 @@
 //! Integers have a limited range, see [`LIMITS`]: a model is checked when its plant is created, a state after every
 //! step ([`Cause::Extent`](crate::status::Cause)), and no integer wraps. Constants of models are made by
 //! [`FixedPoint::new`], [`FixedPlace::new`], [`FixedTurn::new`] and `BodyState::<Fixed>::new`.
+//!
+//! Long functions are inlined on processors of 32 bits only: a PC compiles every scheme, and each would contain them.
 
 mod matrix;
 mod number;
@@ -90,7 +92,7 @@ impl Geometry for Fixed {
     fn set_frame(frame: &mut FixedPose, position: &FixedPlace, orientation: &FixedTurn) {
         frame.set(position, orientation);
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_pointer_width = "64"), inline(always))]
     fn place(frame: &FixedPose, local: &FixedPoint) -> (FixedPlace, Vec3<f32>) {
         let turned = frame.turned(local.at.map(|c| c as i32), [0; 3]);
         // The lever arm is rounded as a sum: rounded by parts it would make forces through the centre exert a torque.
@@ -108,7 +110,7 @@ impl Geometry for Fixed {
     fn displacement(from: &FixedPlace, to: &FixedPlace) -> Vec3<f32> {
         single::<PLACE>(difference(to.at, from.at))
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_pointer_width = "64"), inline(always))]
     fn elongation(from: &FixedPlace, to: &FixedPlace, free_length: f32) -> Elongation<Vec3<f32>> {
         let d = difference(to.at, from.at);
         let [x, y, z] = d;
@@ -202,7 +204,7 @@ impl Geometry for Fixed {
     fn spin_change(from: &FixedVelocity, to: &FixedVelocity) -> Vec3<f32> {
         to.since(from)
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_pointer_width = "64"), inline(always))]
     fn accelerate(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.add_to_both(increment);
     }
@@ -211,7 +213,7 @@ impl Geometry for Fixed {
     fn apply_gravity(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.lost = stored.lost - increment;
     }
-    #[inline(always)]
+    #[cfg_attr(not(target_pointer_width = "64"), inline(always))]
     fn spin_up(stored: &mut FixedVelocity, increment: Vec3<f32>) {
         stored.add_to_both(increment);
     }

@@ -107,7 +107,7 @@ pub(super) fn fixed(v: Vec3<f32>) -> [i64; 3] {
 }
 
 /// Moves a position by a displacement in units of its upper word, or beyond all limits.
-#[inline(always)]
+#[cfg_attr(not(target_pointer_width = "64"), inline(always))]
 pub(super) fn move_by(position: &mut FixedPlace, displacement: Vec3<f32>) {
     let most = const { (LIMITS.drift * LIMITS.drift) as f32 * single_power(2 * (PLACE - 32)) };
     let within = displacement.dot(displacement) <= most;

@@ -35,7 +35,7 @@ impl FixedPose {
     }
 
     // Element by element: a matrix built elsewhere would be copied.
-    #[inline(always)]
+    #[cfg_attr(not(target_pointer_width = "64"), inline(always))]
     fn set_matrix(&mut self, place: &FixedPlace, [p, q, r]: [[i32; 3]; 3]) {
         let Self { position, rotation: [x, y, z], single } = self;
         for (to, from) in position.iter_mut().zip(place.at) {
@@ -54,7 +54,7 @@ impl FixedPose {
     }
 
     /// A point of the body, 27 fraction bits, in world axes, added to a displacement: exact.
-    #[inline(always)]
+    #[cfg_attr(not(target_pointer_width = "64"), inline(always))]
     pub(super) fn turned(&self, point: [i32; 3], [x, y, z]: [i64; 3]) -> [i64; 3] {
         let point = point.map(i64::from);
         let beyond = |way: i64, row: [i32; 3]| {

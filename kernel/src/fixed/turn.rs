@@ -63,7 +63,7 @@ impl FixedTurn {
     }
 
     /// Rotates about a body axis by half the angle in two numbers, to 2^-35 of it.
-    #[inline(always)]
+    #[cfg_attr(not(target_pointer_width = "64"), inline(always))]
     pub(crate) fn turn_exactly<const AXIS: usize>(&mut self, (whole, rest): (f32, f32)) {
         let half = whole + rest;
         // The sine is valid up to a half, which no useful step reaches.
@@ -123,7 +123,7 @@ impl FixedTurn {
     }
 
     /// The Hamilton product, to a few units of 2^-60.
-    #[inline(always)]
+    #[cfg_attr(not(target_pointer_width = "64"), inline(always))]
     fn product(&self, other: &Self) -> Self {
         let (a, [ax, ay, az]) = (self.w, self.v);
         let (b, [bx, by, bz]) = (other.w, other.v);
@@ -228,7 +228,7 @@ impl Attitude for FixedTurn {
         Rotation { x: x * UNIT, y: y * UNIT, z: z * UNIT }
     }
     // Torsion springs take their angle from it: truncation would do work of constant sign.
-    #[inline(always)]
+    #[cfg_attr(not(target_pointer_width = "64"), inline(always))]
     fn quaternion(&self) -> Quaternion<f32> {
         let [w, x, y, z] = [self.w, self.v[0], self.v[1], self.v[2]].map(nearest_f32::<BITS>);
         Quaternion::new(w, x, y, z)

@@ -65,7 +65,7 @@ fn has_motions<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>) -> bool {
     T::INPUTS && model.inputs.iter().any(|input| moves(&input.kind))
 }
 
-#[inline(always)]
+#[inline]
 fn set<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
     value: impl Fn(usize) -> P::Real,

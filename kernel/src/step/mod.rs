@@ -4,14 +4,13 @@
 //! `(h·D⁻¹)·Q`, a drift changes poses; the diagonal ½·h·D⁻¹ is computed once per (model, step),
 //! D the diagonal of masses and principal inertias (Franco & Degani 2026, eq. 7–8).
 
-mod abreast;
 mod body;
 mod damped;
+mod drift;
 mod driven;
 mod solved;
 
-use body::move_apart;
-pub(crate) use body::{drift_body, drift_to_frame, kick_body};
+pub(crate) use body::kick_body;
 pub(crate) use driven::drive;
 
 use core::ops::{Deref, DerefMut};
@@ -382,46 +381,19 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     /// Moves every body freely for `time` \[s\]: in translation, and as a free rotor (second order).
     #[inline(always)]
     pub fn drift(&mut self, time: P::Real) {
-        self.cache.fresh = false;
-        self.cache.ready = false;
-        if self.moves_abreast() {
-            return self.move_abreast(None, time, false);
-        }
-        for (state, body) in self.bodies.iter_mut().zip(self.model.bodies) {
-            drift_body::<P, T>(state, body, time);
-        }
+        self.move_all(None, time, false);
     }
 
     /// [`Self::kick`] and then [`Self::drift`], body by body: its velocities stay in registers.
     #[inline(always)]
     pub fn kick_and_drift(&mut self, scale: P::Real, time: P::Real) {
-        self.cache.fresh = false;
-        self.cache.ready = false;
-        if self.moves_abreast() {
-            return self.move_abreast(Some(scale), time, false);
-        }
-        let fall = self.fall(scale);
-        let rows = self.bodies.iter_mut().zip(self.model.bodies);
-        let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
-        for ((state, body), (wrench, diagonal)) in rows {
-            kick_body(state, wrench, diagonal, (scale, fall));
-            drift_body::<P, T>(state, body, time);
-        }
+        self.move_all(Some(scale), time, false);
     }
 
     /// [`Self::drift`], including the bodies' frames.
     #[inline(always)]
     pub(crate) fn drift_and_place(&mut self, time: P::Real) {
-        self.cache.fresh = false;
-        self.cache.ready = false;
-        self.cache.moved = true;
-        if self.moves_abreast() {
-            return self.move_abreast(None, time, true);
-        }
-        let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
-        for ((state, body), frame) in rows {
-            drift_to_frame::<P, T>(state, body, frame, time);
-        }
+        self.move_all(None, time, true);
     }
 
     /// [`Self::kick_and_drift`], including the bodies' frames.
@@ -432,24 +404,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
             self.kick(scale);
             return self.drift_and_place(time);
         }
-        self.cache.fresh = false;
-        self.cache.ready = false;
-        self.cache.moved = true;
-        if self.moves_abreast() {
-            return self.move_abreast(Some(scale), time, true);
-        }
-        let fall = self.fall(scale);
-        let rows = self.bodies.iter_mut().zip(self.model.bodies).zip(self.frames.iter_mut());
-        let rows = rows.zip(self.wrenches.iter().zip(self.diagonals));
-        for (((state, body), frame), (wrench, diagonal)) in rows {
-            if P::RESTS && scale == P::Real::HALF {
-                let change = fall.change.unwrap_or(P::Vector::ZERO);
-                move_apart::<P, T>(state, body, frame, (wrench, diagonal), change, time);
-            } else {
-                kick_body(state, wrench, diagonal, (scale, fall));
-                drift_to_frame::<P, T>(state, body, frame, time);
-            }
-        }
+        self.move_all(Some(scale), time, true);
     }
 
     /// [`Self::drift`] with a free rotor of fourth order; `time` may be negative.
