@@ -27,7 +27,7 @@ pub(crate) fn kick_body<P: Geometry>(
 
 /// Moves one body in translation, and as a free rotor of second order; a driven one about its axis of rotation.
 #[inline(always)]
-pub(crate) fn drift_body<P: Geometry, T: Terms<P>>(
+pub(super) fn drift_body<P: Geometry, T: Terms<P>>(
     state: &mut BodyState<P>,
     body: &Body<P::Space>,
     time: P::Real,
@@ -42,7 +42,7 @@ pub(crate) fn drift_body<P: Geometry, T: Terms<P>>(
 
 /// [`drift_body`], and the frame of the new pose.
 #[inline(always)]
-pub(crate) fn drift_to_frame<P: Geometry, T: Terms<P>>(
+pub(super) fn drift_to_frame<P: Geometry, T: Terms<P>>(
     state: &mut BodyState<P>,
     body: &Body<P::Space>,
     frame: &mut P::Frame,

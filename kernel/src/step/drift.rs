@@ -87,6 +87,7 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
         may && [first, last].iter().any(|state| tumbles(&state.angular_velocity))
     }
 
+    /// [`Self::move_here`], two bodies at a time.
     fn move_abreast(&mut self, scale: Option<P::Real>, time: P::Real, place: bool) {
         let kick = scale.map(|scale| (scale, self.fall(scale)));
         let (states, last_states) = self.bodies.as_chunks_mut::<ABREAST>();

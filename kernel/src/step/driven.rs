@@ -65,6 +65,8 @@ fn has_motions<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>) -> bool {
     T::INPUTS && model.inputs.iter().any(|input| moves(&input.kind))
 }
 
+/// Sets the velocities of driven bodies to the values of their inputs.
+// `always` would put it into every scheme twice.
 #[inline]
 fn set<P: Geometry, T: Terms<P>>(
     model: &ModelRef<'_, P, T>,
