@@ -45,7 +45,7 @@ pub(crate) use modes::{find, weigh};
 pub(crate) use motion::Pose;
 pub(crate) use near::Held;
 pub(crate) use pass::Sweep;
-pub(crate) use prepare::prepare;
+pub(crate) use prepare::{include_inputs, prepare};
 pub(crate) use shares::share;
 pub use strength::{DampersOf, Strength, strengths, strengths_of_joints};
 

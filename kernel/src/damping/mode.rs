@@ -94,6 +94,12 @@ impl<P: Geometry> DampingMode<P> {
         Direction { along, moments }
     }
 
+    /// Its rate by a kick: that of the linear velocity between the bodies, in its axes, and of both angular velocities.
+    #[inline(always)]
+    pub(super) fn kicked(&self, pushed: P::Vector, [own, other]: [P::Moment; 2]) -> P::Real {
+        self.along.dot(pushed) + self.moment.dot(own) - self.other.dot(other)
+    }
+
     /// Sets the impulse of half a step `h` \[s\], times the coefficient, with 1/μ = `rate`: it removes the fraction
     /// `1 − 1/(1 + x + x²/2)`, `x = h·rate`, of the rate, and like any damper (`damping::pair::Damper`) includes the
     /// rate of the kick, `kicked`.

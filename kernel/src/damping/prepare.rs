@@ -11,6 +11,7 @@ use crate::damping::kick::Kick;
 use crate::damping::mode::{DampingMode, Kind, Stop};
 use crate::damping::modes::{LARGEST, counts};
 use crate::damping::{Share, Sweep, engaged};
+use crate::forces;
 use crate::geometry::Geometry;
 use crate::index::BodyIndex;
 use crate::model::{Group, ModelRef, Terms};
@@ -85,6 +86,35 @@ pub(crate) fn prepare<P: Geometry, T: Terms<P>, K: Kick<P>>(
     }
 }
 
+/// Includes the kicks of the bodies of inputs, which have changed, in modes prepared for this pose.
+pub(crate) fn include_inputs<P: Geometry, T: Terms<P>, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    (modes, stops): (&mut [DampingMode<P>], u16),
+) {
+    for number in 0..usize::from(stops) {
+        let Some(&DampingMode { stop, .. }) = modes.get(number) else { break };
+        if !stop.ends.iter().any(|&row| forces::acts_on(model, row.into())) {
+            continue;
+        }
+        let row = usize::from(stop.row);
+        let (Some(own), Some(shares)) = (modes.get_mut(row..), sweep.shares.get(row..)) else {
+            break;
+        };
+        match (stop.kind, &mut *own, shares) {
+            (Kind::Ground, ..) => include_kick(sweep, &stop, own),
+            (Kind::Joint, ..) => include_kick_between(model, sweep, &stop, (own, shares)),
+            (Kind::Raw, [mode, ..], [share, ..]) => {
+                include_kick_in_line(model, sweep, &stop, (mode, share));
+            }
+            (Kind::Torsion, [mode, ..], [share, ..]) if T::TORSIONS => {
+                include_kick_in_torsion(model, sweep, &stop, (mode, share));
+            }
+            _ => {}
+        }
+    }
+}
+
 /// Whether any damper of a group acts beyond its clearance.
 #[inline(always)]
 fn touches<P: Geometry, T: Terms<P>, K: Kick<P>>(
@@ -112,6 +142,29 @@ fn include_kick<P: Geometry, K: Kick<P>>(
     let pushed = P::to_body(frame, kick.linear);
     for mode in modes.iter_mut().take(stop.count.into()) {
         mode.linked[0] = mode.along.dot(pushed) + mode.moment.dot(kick.angular);
+    }
+}
+
+/// The same in those of a joint between two bodies, prepared for this pose.
+fn include_kick_between<P: Geometry, T: Terms<P>, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    stop: &Stop,
+    (modes, shares): (&mut [DampingMode<P>], &[Share<P::Real>]),
+) {
+    let [row, other_row] = stop.ends.map(usize::from);
+    let (Some(frame), Some(partner)) = (sweep.places.frames.get(row), model.bodies.get(other_row))
+    else {
+        return;
+    };
+    let (Some(kick), Some(partner_kick)) = (sweep.kick.of(row), sweep.kick.of(other_row)) else {
+        return;
+    };
+    let pushed = P::to_body(frame, kick.linear - partner_kick.linear);
+    for (mode, share) in modes.iter_mut().zip(shares).take(stop.count.into()) {
+        let rate = mode.rate + mode.other.dot(mode.other.scale(partner.inverse_inertia));
+        let kicked = mode.kicked(pushed, [kick.angular, partner_kick.angular]);
+        mode.weigh(share, sweep.h, rate, kicked);
     }
 }
 
@@ -169,8 +222,7 @@ fn hold<P: Geometry, T: Terms<P>, K: Kick<P>, const N: usize>(
                 let rate = modes[$i].rate + other.dot(turn);
                 $(modes[$i].linked[$j] = modes[$i].still[$j] + modes[$j].other.dot(turn);)*
                 let mode = &mut modes[$i];
-                let kicked = mode.along.dot(pushed) + mode.moment.dot(kick.angular)
-                    - other.dot(partner_kick.angular);
+                let kicked = mode.kicked(pushed, [kick.angular, partner_kick.angular]);
                 mode.weigh(&shares[$i], sweep.h, rate, kicked);
                 anew();
             }
@@ -196,14 +248,9 @@ fn line<P: Geometry, T: Terms<P>, K: Kick<P>>(
     let Some(group) = model.groups.get(usize::from(stop.of)) else { return };
     let first = group.point as usize;
     let [a, b] = if ends[0] == group.a { [first, first + 1] } else { [first + 1, first] };
-    let (Some(a), Some(b), Some(&coefficient), Some(body), Some(frame), Some(kick)) = (
-        model.points.get(a),
-        model.points.get(b),
-        model.dampers.get(usize::from(stop.row)),
-        model.bodies.get(ends[0].row()),
-        sweep.places.frames.get(ends[0].row()),
-        sweep.kick.of(ends[0].row()),
-    ) else {
+    let (Some(a), Some(b), Some(frame)) =
+        (model.points.get(a), model.points.get(b), sweep.places.frames.get(ends[0].row()))
+    else {
         return;
     };
     let own = End::<P>::at(frame);
@@ -213,6 +260,29 @@ fn line<P: Geometry, T: Terms<P>, K: Kick<P>>(
     let along = d * d.dot(d).sqrt().reciprocal_or_zero();
     mode.along = along;
     mode.moment = own.moment_to_axes(arm.cross(along));
+    if ends[1].row() < model.bodies.len() {
+        mode.other = other.moment_to_axes(other_arm.cross(along));
+    }
+    include_kick_in_line(model, sweep, stop, (mode, share));
+}
+
+/// Includes the kick in the mode of a raw spring, prepared for this pose.
+#[inline(always)]
+fn include_kick_in_line<P: Geometry, T: Terms<P>, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    stop: &Stop,
+    (mode, share): (&mut DampingMode<P>, &Share<P::Real>),
+) {
+    let ends = stop.ends.map(BodyIndex);
+    let (Some(&coefficient), Some(body), Some(kick)) = (
+        model.dampers.get(usize::from(stop.row)),
+        model.bodies.get(ends[0].row()),
+        sweep.kick.of(ends[0].row()),
+    ) else {
+        return;
+    };
+    let along = mode.along;
     let mut inverse_mass = body.inverse_mass;
     let mut rate = mode.moment.dot(mode.moment.scale(body.inverse_inertia));
     let mut kicked = mode.moment.dot(kick.angular);
@@ -220,7 +290,6 @@ fn line<P: Geometry, T: Terms<P>, K: Kick<P>>(
     if let Some(partner) = model.bodies.get(ends[1].row())
         && let Some(kick) = sweep.kick.of(ends[1].row())
     {
-        mode.other = other.moment_to_axes(other_arm.cross(along));
         inverse_mass = inverse_mass + partner.inverse_mass;
         rate = rate + mode.other.dot(mode.other.scale(partner.inverse_inertia));
         kicked = kicked - mode.other.dot(kick.angular);
@@ -229,7 +298,8 @@ fn line<P: Geometry, T: Terms<P>, K: Kick<P>>(
     rate = rate + along.dot(along) * inverse_mass;
     weigh(sweep, (mode, share), coefficient, rate, kicked + along.dot(pushed));
     if T::INPUTS {
-        let ground = mode.impulse * along.dot(other.velocity);
+        let ground = End::new(model, sweep.places, ends[1], None).velocity;
+        let ground = mode.impulse * along.dot(ground);
         mode.less = mode.less.map(|less| less + ground);
     }
 }
@@ -243,12 +313,7 @@ fn torsion_angle<P: Geometry, T: Terms<P>, K: Kick<P>>(
     bodies: &[BodyState<P>],
     (mode, share): (&mut DampingMode<P>, &Share<P::Real>),
 ) {
-    let row = usize::from(stop.row);
-    let (Some(spring), Some(&coefficient)) =
-        (model.torsions.get(usize::from(stop.of)), model.dampers.get(row))
-    else {
-        return;
-    };
+    let Some(spring) = model.torsions.get(usize::from(stop.of)) else { return };
     let orientation = |row: usize| bodies.get(row).map(|state| &state.orientation);
     let relative =
         P::Orientation::relative(orientation(spring.a.row()), orientation(spring.b.row()));
@@ -261,21 +326,35 @@ fn torsion_angle<P: Geometry, T: Terms<P>, K: Kick<P>>(
         Some(frame) => P::moment_to_world(frame, gradient),
         None => gradient,
     };
-    let [own, other] = stop.ends.map(|end| {
+    [mode.moment, mode.other] = stop.ends.map(|end| {
         let end = BodyIndex(end);
-        let moment = match sweep.places.frames.get(end.row()) {
+        match sweep.places.frames.get(end.row()) {
             Some(_) if end == spring.a => gradient,
             Some(frame) => P::moment_to_body(frame, world),
             None => P::Moment::ZERO,
-        };
-        let inverse = model.bodies.get(end.row()).map(|body| body.inverse_inertia);
-        let turn = moment.scale(inverse.unwrap_or(P::Moment::ZERO));
-        let kicked = sweep.kick.of(end.row()).map(|kick| kick.angular);
-        (moment, moment.dot(turn), moment.dot(kicked.unwrap_or(P::Moment::ZERO)))
+        }
     });
-    mode.moment = own.0;
-    mode.other = other.0;
-    weigh(sweep, (mode, share), coefficient, own.1 + other.1, own.2 - other.2);
+    include_kick_in_torsion(model, sweep, stop, (mode, share));
+}
+
+/// Includes the kick in the mode of a torsion spring, prepared for this pose.
+#[inline(always)]
+fn include_kick_in_torsion<P: Geometry, T: Terms<P>, K: Kick<P>>(
+    model: &ModelRef<'_, P, T>,
+    sweep: &Sweep<'_, P, K>,
+    stop: &Stop,
+    (mode, share): (&mut DampingMode<P>, &Share<P::Real>),
+) {
+    let Some(&coefficient) = model.dampers.get(usize::from(stop.row)) else { return };
+    let [own, other] =
+        [(stop.ends[0], mode.moment), (stop.ends[1], mode.other)].map(|(end, moment)| {
+            let row = BodyIndex(end).row();
+            let inverse = model.bodies.get(row).map(|body| body.inverse_inertia);
+            let turn = moment.scale(inverse.unwrap_or(P::Moment::ZERO));
+            let kicked = sweep.kick.of(row).map(|kick| kick.angular);
+            (moment.dot(turn), moment.dot(kicked.unwrap_or(P::Moment::ZERO)))
+        });
+    weigh(sweep, (mode, share), coefficient, own.0 + other.0, own.1 - other.1);
 }
 
 /// Weights the single mode of a spring with its coefficient. Without a direction, 1/μ = 0, it does nothing.

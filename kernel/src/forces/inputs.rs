@@ -5,7 +5,7 @@
 //! body. An anchor moves points instead, see [`crate::pose`].
 
 use crate::elements::gravity;
-use crate::elements::input::InputKind;
+use crate::elements::input::{Input, InputKind};
 use crate::elements::load::LoadFrame;
 use crate::elements::torsion_spring::gradient_between;
 use crate::forces::force_pair::{ForcePair, Wrench};
@@ -36,6 +36,12 @@ fn bodies_of<P: Geometry, T: Terms<P>>(
         // Others act on all bodies or on none; listed, they would leave a trap in the target's jump table.
         _ => [world; 2],
     }
+}
+
+/// Whether any input may act on a body.
+pub(crate) fn acts_on<P: Geometry, T: Terms<P>>(model: &ModelRef<'_, P, T>, row: usize) -> bool {
+    let bodies = |input: &Input<P>| bodies_of(model, &input.kind);
+    model.inputs.iter().any(|input| bodies(input).iter().any(|body| body.row() == row))
 }
 
 /// Stores the wrenches before [`push`].

@@ -31,7 +31,7 @@ pub use force_pair::{
 pub(crate) use force_pair::{Memories, apply};
 use in_line::MayBe;
 pub(crate) use in_line::are_in_line;
-pub(crate) use inputs::{Unpushed, field, push, take_back, with_actuators};
+pub(crate) use inputs::{Unpushed, acts_on, field, push, take_back, with_actuators};
 pub(crate) use triples::find_rests;
 
 use crate::elements::gravity;

@@ -4,8 +4,9 @@
 //! tumbling body, whose free rotor is a splitting of second order. Linear and, with quaternions, angular momentum are
 //! conserved to rounding; with damped bushings and points on lines, whose law does not conserve it, only the linear
 //! one. One force evaluation per step: the last of a step is the first of the next, unless a load begins or ends or an
-//! input jumps. Stable for `ω_max·h < 2`. Dampers are pairwise damper passes of half a step, each including the
-//! preceding half kick (see [`crate::damping`]); they do not reduce stability and keep second order.
+//! input changes that moves the ground, is gravity or is part of a law's force. Stable for `ω_max·h < 2`. Dampers are pairwise
+//! damper passes of half a step, each including the preceding half kick (see [`crate::damping`]); they do not reduce
+//! stability and keep second order.
 
 use crate::damping::Damping;
 use crate::forces::{At, Dampers, DampersLeft};
@@ -57,7 +58,7 @@ impl Kicked for Leapfrog {
         stepper: &mut Stepper<'_, '_, P, T, ()>,
     ) -> Result<(), Cause> {
         // One call of the evaluation for both cases, so that it is inlined and a step is one function.
-        let mut known = !D::ACT && stepper.refresh();
+        let mut known = !D::ACT && stepper.refresh::<D>();
         let h = stepper.h;
         loop {
             if known {

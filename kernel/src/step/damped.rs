@@ -3,7 +3,7 @@
 //! `(velocities, wrenches, frames) => velocities`.
 
 use crate::damping::{self, HalfKick, KeptKick, NoKick, Sweep};
-use crate::forces::{Dampers, Wrench};
+use crate::forces::{self, Dampers, Wrench};
 use crate::geometry::Geometry;
 use crate::model::Terms;
 use crate::pass_sum::PassSum as _;
@@ -111,6 +111,28 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
                 P::spin_up(&mut state.angular_velocity, kick.torque);
             }
         }
+    }
+
+    /// Replaces the stored kicks of the bodies of inputs, whose wrenches have changed, also in the damping modes.
+    #[inline(never)]
+    pub(super) fn renew_kicks(&mut self) {
+        let fall = self.fall(P::Real::HALF);
+        for (row, (wrench, diagonal)) in self.wrenches.iter_mut().zip(self.diagonals).enumerate() {
+            if forces::acts_on(&self.model, row) {
+                let kick = diagonal.kick((wrench.force, wrench.torque), P::Real::HALF, fall);
+                *wrench = Wrench::new(kick.linear, kick.angular);
+            }
+        }
+        let sweep = Sweep {
+            h: P::Real::HALF * self.h,
+            places: Places { frames: &*self.frames, signals: &*self.signals },
+            turns: &*self.turns,
+            shares: self.shares,
+            kick: KeptKick { kicks: &*self.wrenches },
+            evaluated: self.cache.fresh,
+        };
+        let modes = (&mut *self.modes, self.cache.stops);
+        damping::include_inputs::<P, T, _>(&self.model, &sweep, modes);
     }
 
     /// Half a step of the dampers alone in ascending order; frames are those of the present pose. Where forces act

@@ -306,22 +306,22 @@ impl<P: Geometry, T: Terms<P>> Workspace<'_, '_, P, T> {
     }
 
     /// Updates the forces of inputs in the wrenches to the present signals where [`Self::is_fresh`] lacks only that: a
-    /// controller that sets an input in every step costs no evaluation. Returns whether the wrenches are then valid.
+    /// controller that sets an input in every step costs no evaluation. Returns whether the wrenches are then valid, or,
+    /// joint by joint, the kick in their place.
     #[inline(always)]
-    pub fn refresh(&mut self) -> bool {
+    pub fn refresh<D: Dampers>(&mut self) -> bool {
         if !self.is_placed() {
             return false;
         }
         if T::INPUTS && !self.cache.pushed {
-            // Joint by joint the kick is stored in place of the wrenches.
-            if self.cache.ready {
-                return false;
-            }
             let places = Places { frames: &*self.frames, signals: &*self.signals };
             if !forces::take_back(&self.model, self.unpushed, self.wrenches) {
                 return false;
             }
             forces::push(&self.model, places, self.wrenches);
+            if D::JOINT_WISE && self.cache.ready {
+                self.renew_kicks();
+            }
             self.cache.pushed = true;
         }
         true
