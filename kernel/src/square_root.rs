@@ -1,15 +1,15 @@
 //! The correctly rounded square root: the FPU's where it has one, pure Rust elsewhere.
 //!
-//! IEEE 754 rounds the root correctly, so the bits are the same either way. `core` has no root; libm's is the host's
-//! instruction on x86-64 and a hundred instructions or more on microcontrollers, whose FPUs need one. The ABI of a
-//! Cortex-M tells of an FPU of single precision; the feature `fpu` of what no stable `cfg` tells: of double precision
-//! there, and of any on RISC-V. WebAssembly has an instruction for both, which only `std` exposes. Code compiled for AVX
-//! uses the intrinsic: libm's instruction is of SSE, and waits for the upper halves of AVX registers.
+//! IEEE 754 rounds the root correctly, so the bits are the same either way. `core` has no root; libm's is a hundred
+//! instructions or more on microcontrollers, whose FPUs need one. The ABI of a Cortex-M tells of an FPU of single
+//! precision; the feature `fpu` of what no stable `cfg` tells: of double precision there, and of any on RISC-V.
+//! WebAssembly has an instruction for both, which only `std` exposes. On x86-64 the compiler orders and pairs intrinsics
+//! as it cannot libm's assembly, which is of SSE besides and waits for the upper halves of AVX registers.
 
 /// √x in double precision.
 #[cfg(not(any(
     all(feature = "fpu", target_arch = "arm", target_os = "none", target_abi = "eabihf"),
-    all(target_arch = "x86_64", target_feature = "avx")
+    all(target_arch = "x86_64", target_feature = "sse2")
 )))]
 #[inline(always)]
 pub fn sqrt_f64(x: f64) -> f64 {
@@ -19,14 +19,14 @@ pub fn sqrt_f64(x: f64) -> f64 {
     libm::sqrt(x)
 }
 
-/// √x in double precision, by VSQRTSD.
-#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
+/// √x in double precision, by SQRTSD.
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 #[allow(unsafe_code)]
 #[inline(always)]
 pub fn sqrt_f64(x: f64) -> f64 {
-    use core::arch::x86_64::{_mm_cvtsd_f64, _mm_set_sd, _mm_sqrt_pd};
-    // SAFETY: every x86-64 has SSE2.
-    unsafe { _mm_cvtsd_f64(_mm_sqrt_pd(_mm_set_sd(x))) }
+    use core::arch::x86_64::{_mm_cvtsd_f64, _mm_set_sd, _mm_sqrt_sd};
+    // SAFETY: the target has SSE2.
+    unsafe { _mm_cvtsd_f64(_mm_sqrt_sd(_mm_set_sd(x), _mm_set_sd(x))) }
 }
 
 /// √x in double precision, by VSQRT of an FPU that has it, as a Cortex-M7's.
@@ -56,7 +56,7 @@ pub fn sqrt_f64(x: f64) -> f64 {
 #[cfg(not(any(
     all(target_arch = "arm", target_os = "none", target_abi = "eabihf"),
     all(feature = "fpu", target_arch = "riscv32"),
-    all(target_arch = "x86_64", target_feature = "avx")
+    all(target_arch = "x86_64", target_feature = "sse2")
 )))]
 #[inline(always)]
 pub fn sqrt_f32(x: f32) -> f32 {
@@ -66,13 +66,13 @@ pub fn sqrt_f32(x: f32) -> f32 {
     libm::sqrtf(x)
 }
 
-/// √x in single precision, by VSQRTSS.
-#[cfg(all(target_arch = "x86_64", target_feature = "avx"))]
+/// √x in single precision, by SQRTSS.
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 #[allow(unsafe_code)]
 #[inline(always)]
 pub fn sqrt_f32(x: f32) -> f32 {
     use core::arch::x86_64::{_mm_cvtss_f32, _mm_set_ss, _mm_sqrt_ss};
-    // SAFETY: every x86-64 has SSE.
+    // SAFETY: the target has SSE.
     unsafe { _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x))) }
 }
 
