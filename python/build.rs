@@ -4,13 +4,14 @@
 //! it is said that the interpreter brings Python's symbols. maturin says it for the crate that it builds; cargo also
 //! links this one where a user's crate depends on it.
 
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
     pyo3_build_config::add_extension_module_link_args();
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").canonicalize()?;
+    let folder = Path::new(&set("CARGO_MANIFEST_DIR")?).join("../scenes").canonicalize()?;
     println!("cargo::rerun-if-changed={}", folder.display());
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -23,6 +24,10 @@ fn main() -> io::Result<()> {
         let name = file.file_stem().unwrap_or_default().to_string_lossy();
         let _ = writeln!(text, "    ({name:?}, include_str!({:?})),", file.to_string_lossy());
     }
-    let folder = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets OUT_DIR"))?;
-    fs::write(Path::new(&folder).join("scenes.rs"), text + "]\n")
+    fs::write(Path::new(&set("OUT_DIR")?).join("scenes.rs"), text + "]\n")
+}
+
+/// What cargo sets when the script runs: two checkouts with one target folder share the program.
+fn set(name: &str) -> io::Result<OsString> {
+    env::var_os(name).ok_or_else(|| io::Error::other(format!("cargo sets {name}")))
 }

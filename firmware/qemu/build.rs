@@ -88,8 +88,8 @@ const DROP: &str = "../../host-sim/templates/laws/drop.toml.in";
 const AUDIT: &str = "audit";
 
 fn main() {
-    let root =
-        Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("the repository's root");
+    let here = std::env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets CARGO_MANIFEST_DIR");
+    let root = Path::new(&here).ancestors().nth(2).expect("the repository's root");
     println!("cargo:rerun-if-changed=build.rs");
     models();
     if std::env::var_os("CARGO_FEATURE_ELEMENTS").is_some() {

@@ -11,8 +11,8 @@ use dbd_scene::{Scene, SceneError, export};
 const SCENES: [&str; 2] = ["four-bar", "cart-pendulum"];
 
 fn main() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    let set = |name| std::env::var_os(name).unwrap_or_else(|| panic!("cargo sets {name}"));
+    let (here, out) = (PathBuf::from(set("CARGO_MANIFEST_DIR")), PathBuf::from(set("OUT_DIR")));
     for name in SCENES {
         let file = here.join("../../scenes").join(name).with_extension("toml");
         println!("cargo:rerun-if-changed={}", file.display());
