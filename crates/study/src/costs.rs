@@ -110,13 +110,6 @@ impl Costs {
         };
         ratios.get(row).copied()
     }
-
-    /// All rows: scene, scheme as the table has it, precision, instructions.
-    pub fn rows(&self) -> impl Iterator<Item = (&str, &str, &str, f64)> {
-        self.rows.iter().map(|((scene, scheme, precision), count)| {
-            (scene.as_str(), scheme.as_str(), precision.as_str(), *count)
-        })
-    }
 }
 
 #[cfg(test)]

@@ -2,8 +2,9 @@
 //!
 //! `(scene, method, counts) => instructions per step`. A step of leapfrog in f32 has fixed numbers of instructions per
 //! body, per rotation axis of a body, and per element; those of laws are counted by `cargo xtask cost --elements`.
-//! Another scheme or precision scales it by the median ratio of counted scenes. Inputs hold their values. A test compares
-//! it with every counted row.
+//! Another scheme or precision scales it by the median ratio of counted scenes. Inputs hold their values, those of laws
+//! excepted; what setting them costs is the difference of two columns of docs/costs.csv. A test compares it with every
+//! counted row.
 
 use dbd_kernel::model::{Group, Law};
 use dbd_plant::plan::step_of;

@@ -1,15 +1,15 @@
 //! Instructions and memory of a step of models with their schemes.
 //!
-//! `(pairs, SysTick) => lines "cost SCENE SCHEMEVARIANT PRECISION STEP MEAN MAX PLANT MODEL STACK"`:
-//! step \[ns\], instructions per step, bytes of the plant (state and scratch), of the const model
-//! and of the stack below the call. The emulator must count instructions (`-icount shift=6`): an
-//! instruction is 64 ns of virtual time, which is 1.6 ticks of SysTick. An empty call is timed
-//! the same way and subtracted.
+//! `(pairs, SysTick) => lines "cost SCENE SCHEMEVARIANT PRECISION STEP MEAN MAX HELD PLANT MODEL STACK"`:
+//! step \[ns\], instructions per step (mean, most, and mean where nothing sets the inputs), bytes of the plant (state
+//! and scratch), of the const model and of the stack below the call. Before each step every input is set to another
+//! value, as a controller does. The emulator must count instructions (`-icount shift=6`): an instruction is 64 ns of
+//! virtual time, which is 1.6 ticks of SysTick. An empty call is timed the same way and subtracted.
 
 use core::hint::black_box;
 
-use dbd_kernel::model::ModelOwner;
-use dbd_kernel::{Geometry, Plant, Scheme};
+use dbd_kernel::model::{ModelOwner, RealOf};
+use dbd_kernel::{Geometry, InputIndex, Plant, Real as _, Scheme};
 
 use crate::board::stack;
 use crate::board::systick::SysTick;
@@ -20,6 +20,8 @@ use crate::say;
 const STEPS: u32 = 64;
 /// Steps before the first timed one; the first step of a plant is not a typical one.
 const WARM_UP: u32 = 4;
+/// By how much inputs change, in their units: too little to change what a step takes otherwise.
+const CHANGE: f64 = 1e-6;
 
 /// Prints a line for each pair that `show` shows; `false` where a model did not step.
 ///
@@ -112,11 +114,21 @@ impl Visitor for Costing<'_> {
             return;
         };
         for _ in 0..WARM_UP {
-            self.well &= one_step(&mut plant);
+            self.well &= driven_step(&mut plant);
         }
-        let (total, most, well) = count(self.systick, STEPS, one_step::<M, S>, &mut plant);
+        let (total, most, well) = count(self.systick, STEPS, driven_step::<M, S>, &mut plant);
         self.well &= well;
-        let step: Call<Plant<&'static M, S>> = black_box(one_step::<M, S>);
+        let mut held = total;
+        if inputs(shipped.model) > 0 {
+            plant.reset();
+            for _ in 0..WARM_UP {
+                self.well &= one_step(&mut plant);
+            }
+            let (ticks, _, well) = count(self.systick, STEPS, one_step::<M, S>, &mut plant);
+            held = ticks;
+            self.well &= well;
+        }
+        let step: Call<Plant<&'static M, S>> = black_box(driven_step::<M, S>);
         let stack = stack::depth(|| {
             self.well &= step(&mut plant);
         });
@@ -124,9 +136,9 @@ impl Visitor for Costing<'_> {
         // emulator that is asked to counts instructions by their address.
         plant.reset();
         for _ in 0..WARM_UP {
-            self.well &= one_step(&mut plant);
+            self.well &= driven_step(&mut plant);
         }
-        for call in [black_box(nothing::<_> as Call<_>), black_box(one_step::<M, S>)] {
+        for call in [black_box(nothing::<_> as Call<_>), black_box(driven_step::<M, S>)] {
             mark();
             for _ in 0..STEPS {
                 self.well &= call(black_box(&mut plant));
@@ -135,7 +147,7 @@ impl Visitor for Costing<'_> {
         mark();
         let nanoseconds = (shipped.step * 1e9 + 0.5) as u64;
         say!(
-            "cost {} {}{} {} {} {} {} {} {} {}",
+            "cost {} {}{} {} {} {} {} {} {} {} {}",
             shipped.scene,
             S::NAME,
             shipped.variant,
@@ -143,6 +155,7 @@ impl Visitor for Costing<'_> {
             nanoseconds,
             SysTick::instructions(total, STEPS),
             SysTick::instructions(most, 1),
+            SysTick::instructions(held, STEPS),
             size_of::<Plant<&'static M, S>>(),
             size_of::<M>() + shipped.beside,
             stack
@@ -160,6 +173,20 @@ pub fn mark() {
 #[inline(never)]
 fn one_step<M: ModelOwner, S: Scheme>(plant: &mut Plant<&'static M, S>) -> bool {
     plant.step().is_ok()
+}
+
+/// Sets every input to another value than before the last step, and steps. An input that a source drives keeps its own.
+#[inline(never)]
+fn driven_step<M: ModelOwner, S: Scheme>(plant: &mut Plant<&'static M, S>) -> bool {
+    let change = if plant.state().step % 2 == 0 { CHANGE } else { -CHANGE };
+    for row in 0..inputs(plant.model()) {
+        let _ = plant.set_input_real(InputIndex(row as u16), RealOf::<M>::from_f64(change));
+    }
+    plant.step().is_ok()
+}
+
+fn inputs<M: ModelOwner>(model: &M) -> usize {
+    model.view().inputs.len()
 }
 
 #[inline(never)]

@@ -1,7 +1,7 @@
 //! `cargo xtask cost --compare`: what is measured now against docs/costs.csv.
 //!
 //! `rows before, rows now => rows that changed, largest first, verdict`. Counts are instructions of
-//! the mean and of the dearest step, code, model, plant and stack.
+//! the mean, of the dearest step and with held inputs, code, model, plant and stack.
 
 use std::fmt::Write as _;
 
@@ -13,10 +13,11 @@ use super::row::Cost;
 const LIMIT: f64 = 0.01;
 
 /// The counts of a row.
-fn counts(cost: &Cost) -> [(&'static str, Option<u64>); 6] {
+fn counts(cost: &Cost) -> [(&'static str, Option<u64>); 7] {
     [
         ("instructions_mean", Some(cost.mean)),
         ("instructions_max", Some(cost.max)),
+        ("instructions_held", Some(cost.held)),
         ("text_bytes", cost.text),
         ("rodata_bytes", Some(cost.model)),
         ("plant_ram_bytes", Some(cost.plant)),
@@ -96,7 +97,7 @@ mod tests {
     use super::*;
 
     fn cost(mean: u64) -> Cost {
-        let line = format!("cost four-bar dbd f32 100000 {mean} 10000 600 800 400");
+        let line = format!("cost four-bar dbd f32 100000 {mean} 10000 {mean} 600 800 400");
         Cost::parse(&line).unwrap()
     }
 

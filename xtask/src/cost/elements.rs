@@ -68,11 +68,11 @@ mod tests {
     #[test]
     fn an_element_is_the_difference_to_the_plain_scene() {
         let costs = [
-            "cost servo leapfrog f32 100000 1200 1300 260 320 90",
-            "cost plain leapfrog f32 100000 1000 1010 250 300 90",
-            "cost plain-planar leapfrog f32 100000 300 310 250 300 90",
-            "cost rod-planar leapfrog f32 100000 350 361 250 300 90",
-            "cost rod leapfrog f32 100000 1050 1060 250 300 90",
+            "cost servo leapfrog f32 100000 1200 1300 1200 260 320 90",
+            "cost plain leapfrog f32 100000 1000 1010 1000 250 300 90",
+            "cost plain-planar leapfrog f32 100000 300 310 300 250 300 90",
+            "cost rod-planar leapfrog f32 100000 350 361 350 250 300 90",
+            "cost rod leapfrog f32 100000 1050 1060 1050 250 300 90",
         ];
         let costs: Vec<Cost> = costs.iter().map(|line| Cost::parse(line).unwrap()).collect();
         let text = table(&costs).unwrap();

@@ -215,7 +215,7 @@ mod tests {
         assert_eq!(mixes.iter().map(Mix::instructions).collect::<Vec<_>>(), [10.0, 11.0]);
         assert_eq!(mixes.iter().map(Mix::cycles).collect::<Vec<_>>(), [[10, 20], [11, 22]]);
         assert_eq!(mixes[0].arithmetic(), 1.0);
-        let cost = Cost::parse("cost four-bar dbd f32 100000 10 10 600 800 400").unwrap();
+        let cost = Cost::parse("cost four-bar dbd f32 100000 10 10 10 600 800 400").unwrap();
         let rows = csv(&[cost], &mixes[..1]);
         assert_eq!(rows.lines().last(), Some("four-bar,dbd,f32,10,0,0,0,0,0,0,0,10,20"));
     }

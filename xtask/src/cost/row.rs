@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use anyhow::{Context as _, Result, bail};
 
-const HEADER: &str = "scene,scheme,precision,step_s,instructions_mean,instructions_max,text_bytes,\
-                      rodata_bytes,plant_ram_bytes,stack_bytes,estimated_rate_168mhz_hz";
+const HEADER: &str = "scene,scheme,precision,step_s,instructions_mean,instructions_max,\
+                      instructions_held,text_bytes,rodata_bytes,plant_ram_bytes,stack_bytes,estimated_rate_168mhz_hz";
 /// \[Hz\] a common clock of Cortex-M4F parts.
 const CLOCK: f64 = 168e6;
 /// Cycles per instruction assumed for the estimated rate. Cortex-M4 takes one for most, two for
@@ -24,10 +24,12 @@ pub struct Cost {
     pub precision: String,
     /// \[s\] the step.
     pub step: f64,
-    /// Instructions per step, mean.
+    /// Instructions per step, mean; every input is set in every step.
     pub mean: u64,
     /// Instructions of the dearest step.
     pub max: u64,
+    /// Instructions per step, mean, where nothing sets the inputs.
+    pub held: u64,
     /// \[bytes\] code, where the audit's image holds the step.
     pub text: Option<u64>,
     /// \[bytes\] the const model.
@@ -39,10 +41,11 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Reads `cost SCENE SCHEME PRECISION STEP_NS MEAN MAX PLANT MODEL STACK`.
+    /// Reads `cost SCENE SCHEME PRECISION STEP_NS MEAN MAX HELD PLANT MODEL STACK`.
     pub fn parse(line: &str) -> Option<Self> {
         let words: Vec<&str> = line.split_whitespace().collect();
-        let ["cost", scene, scheme, precision, step, mean, max, plant, model, stack] = words[..]
+        let ["cost", scene, scheme, precision, step, mean, max, held, plant, model, stack] =
+            words[..]
         else {
             return None;
         };
@@ -53,6 +56,7 @@ impl Cost {
             step: step.parse::<u64>().ok()? as f64 * 1e-9,
             mean: mean.parse().ok()?,
             max: max.parse().ok()?,
+            held: held.parse().ok()?,
             text: None,
             model: model.parse().ok()?,
             plant: plant.parse().ok()?,
@@ -76,13 +80,14 @@ pub fn csv(costs: &[Cost]) -> String {
     for c in costs {
         let _ = writeln!(
             text,
-            "{},{},{},{:e},{},{},{},{},{},{},{}",
+            "{},{},{},{:e},{},{},{},{},{},{},{},{}",
             c.scene,
             c.scheme,
             c.precision,
             c.step,
             c.mean,
             c.max,
+            c.held,
             c.text.map(|bytes| bytes.to_string()).unwrap_or_default(),
             c.model,
             c.plant,
@@ -107,7 +112,8 @@ pub fn read(text: &str) -> Result<Vec<Cost>> {
 
 fn read_row(line: &str) -> Option<Cost> {
     let columns: Vec<&str> = line.split(',').collect();
-    let [scene, scheme, precision, step, mean, max, text, model, plant, stack, _rate] = columns[..]
+    let [scene, scheme, precision, step, mean, max, held, text, model, plant, stack, _rate] =
+        columns[..]
     else {
         return None;
     };
@@ -118,6 +124,7 @@ fn read_row(line: &str) -> Option<Cost> {
         step: step.parse().ok()?,
         mean: mean.parse().ok()?,
         max: max.parse().ok()?,
+        held: held.parse().ok()?,
         text: if text.is_empty() { None } else { Some(text.parse().ok()?) },
         model: model.parse().ok()?,
         plant: plant.parse().ok()?,
@@ -137,9 +144,10 @@ mod tests {
 
     #[test]
     fn a_line_becomes_a_row_and_back() {
-        let mut cost = Cost::parse("cost four-bar dbd f32 100000 9000 10000 600 800 400").unwrap();
+        let mut cost =
+            Cost::parse("cost four-bar dbd f32 100000 9000 10000 8800 600 800 400").unwrap();
         cost.text = Some(7000);
-        let row = "four-bar,dbd,f32,1e-4,9000,10000,7000,800,600,400,11200";
+        let row = "four-bar,dbd,f32,1e-4,9000,10000,8800,7000,800,600,400,11200";
         let text = csv(std::slice::from_ref(&cost));
         assert_eq!(text.lines().last(), Some(row));
         assert_eq!(read(&text).unwrap(), [cost]);
@@ -150,9 +158,10 @@ mod tests {
 
     #[test]
     fn a_row_may_lack_the_text() {
-        let cost = Cost::parse("cost four-bar dbd+1 f32 100000 9000 10000 600 800 400").unwrap();
+        let cost =
+            Cost::parse("cost four-bar dbd+1 f32 100000 9000 10000 8800 600 800 400").unwrap();
         let text = csv(std::slice::from_ref(&cost));
-        let row = "four-bar,dbd+1,f32,1e-4,9000,10000,,800,600,400,11200";
+        let row = "four-bar,dbd+1,f32,1e-4,9000,10000,8800,,800,600,400,11200";
         assert_eq!(text.lines().last(), Some(row));
         assert_eq!(read(&text).unwrap(), [cost]);
     }
