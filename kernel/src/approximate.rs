@@ -7,7 +7,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use micromath::F32Ext;
 
-use crate::geometry::{Float, Named};
+use crate::geometry::Float;
+use crate::lanes::{Named, one_abreast};
 use crate::real::{Constant, Real, one_lane};
 use crate::space::Space;
 use crate::words::{Word, WordSource};
@@ -49,6 +50,7 @@ impl Neg for Approximate {
 }
 
 impl Named for Approximate {
+    one_abreast!();
     type PassSum<S: Space> = <f32 as Named>::PassSum<S>;
     const NAME: &'static str = "f32-micromath";
 }

@@ -10,7 +10,9 @@ use core::marker::PhantomData;
 
 use crate::attitude::Attitude;
 use crate::elongation::{AtRest, Beside, Beyond, Elongation};
-use crate::pass_sum::{PassSum, Sum};
+use crate::force_pair::ForcePair;
+pub use crate::lanes::Named;
+use crate::pass_sum::PassSum;
 use crate::real::Real;
 use crate::space::{Linear as _, Moment, Space, Vector};
 use crate::vector::{Quaternion, Rotation, Vec3};
@@ -61,6 +63,9 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// The sums of a damper pass per body, `()` where impulses are added to velocities directly.
     type PassSum: PassSum<Self::Space>;
 
+    /// The geometry of alike joints of one model that are computed together, one per lane; itself where there is none.
+    type Abreast: Geometry;
+
     /// The name users give: `f64`, `f32`.
     const NAME: &'static str;
     /// The space's name: `spatial`, `planar`.
@@ -110,6 +115,17 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
         let _ = free_length;
         Elongation { way: Self::displacement(from, to), more: None }
     }
+    /// A frame per lane.
+    fn frames_abreast(of: impl Fn(usize) -> Self::Frame) -> <Self::Abreast as Geometry>::Frame;
+    /// A point per lane.
+    fn points_abreast(of: impl Fn(usize) -> Self::Local) -> <Self::Abreast as Geometry>::Local;
+    /// A number per lane.
+    fn numbers_abreast(of: impl Fn(usize) -> Self::Real) -> <Self::Abreast as Geometry>::Real;
+    /// The force pair in a lane.
+    fn force_pair_of(
+        pairs: &ForcePair<<Self::Abreast as Geometry>::Space>,
+        lane: usize,
+    ) -> ForcePair<Self::Space>;
     /// Whether reference data of TSDAs is stored: the offset of a triple's centre from its reference position in B is
     /// then more accurate than its distance from the points of B.
     const RESTS: bool = false;
@@ -272,6 +288,22 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn local_to_f64(local: &Self::Local) -> [f64; 3];
 }
 
+impl<R: Real + Named> Vec3<R> {
+    #[inline(always)]
+    fn abreast(of: impl Fn(usize) -> Self) -> Vec3<R::Abreast> {
+        Vec3::new(
+            R::abreast(|lane| of(lane).x),
+            R::abreast(|lane| of(lane).y),
+            R::abreast(|lane| of(lane).z),
+        )
+    }
+
+    #[inline(always)]
+    fn lane(of: Vec3<R::Abreast>, lane: usize) -> Self {
+        Self::new(R::lane(of.x, lane), R::lane(of.y, lane), R::lane(of.z, lane))
+    }
+}
+
 /// Floating-point geometry: everything is stored in the `Real` itself, orientations as `A`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(all(feature = "defmt", target_os = "none"), derive(defmt::Format))]
@@ -313,24 +345,6 @@ impl<R: Real> Pose<R> {
     }
 }
 
-/// The difference between the floating-point precisions.
-pub trait Named {
-    /// The name users give: `f64`, `f32`.
-    const NAME: &'static str;
-    /// [`Geometry::PassSum`] of a space of this number.
-    type PassSum<S: Space>: PassSum<S>;
-}
-
-impl Named for f64 {
-    type PassSum<S: Space> = ();
-    const NAME: &'static str = "f64";
-}
-
-impl Named for f32 {
-    type PassSum<S: Space> = Sum<S>;
-    const NAME: &'static str = "f32";
-}
-
 impl<R: Real + Named, A: Attitude<Real = R, Turn = Quaternion<R>>> Geometry for Float<R, A> {
     type Real = R;
     type Vector = Vec3<R>;
@@ -346,9 +360,37 @@ impl<R: Real + Named, A: Attitude<Real = R, Turn = Quaternion<R>>> Geometry for 
     type Rest = ();
     type Apart = ();
     type PassSum = R::PassSum<R>;
+    type Abreast = Float<R::Abreast>;
 
     const NAME: &'static str = R::NAME;
 
+    #[inline(always)]
+    fn frames_abreast(of: impl Fn(usize) -> Pose<R>) -> Pose<R::Abreast> {
+        Pose {
+            position: Vec3::abreast(|lane| of(lane).position),
+            rotation: Rotation {
+                x: Vec3::abreast(|lane| of(lane).rotation.x),
+                y: Vec3::abreast(|lane| of(lane).rotation.y),
+                z: Vec3::abreast(|lane| of(lane).rotation.z),
+            },
+        }
+    }
+    #[inline(always)]
+    fn points_abreast(of: impl Fn(usize) -> Vec3<R>) -> Vec3<R::Abreast> {
+        Vec3::abreast(of)
+    }
+    #[inline(always)]
+    fn numbers_abreast(of: impl Fn(usize) -> R) -> R::Abreast {
+        R::abreast(of)
+    }
+    #[inline(always)]
+    fn force_pair_of(pairs: &ForcePair<R::Abreast>, lane: usize) -> ForcePair<R> {
+        ForcePair {
+            force: Vec3::lane(pairs.force, lane),
+            torque_a: Vec3::lane(pairs.torque_a, lane),
+            torque_b: Vec3::lane(pairs.torque_b, lane),
+        }
+    }
     #[inline(always)]
     fn frame(position: &Vec3<R>, orientation: &A) -> Pose<R> {
         Pose { position: *position, rotation: orientation.rotation() }

@@ -58,14 +58,15 @@
 //! - `words`, `square_root`, `real`, `vector`, `freedoms`, `space`, `plane`, `arctangent`: arithmetic,
 //!   including blocks of numbers, and the words in which state is stored.
 //! - `compositions`, `index`: coefficients of schemes, and indices of a model's parts.
-//! - `attitude`, `elongation`, `pass_sum`, `geometry`, `fixed`, `planar`, `euler`, `approximate`: a precision is a
-//!   type: [`F64`], [`F32`], [`Fixed`], in the plane [`Planar64`], [`Planar32`]; an orientation is a quaternion or, as
-//!   in the paper, Euler angles.
+//! - `attitude`, `elongation`, `pass_sum`, `lanes`, `force_pair`: orientations, displacements, sums; numbers of several
+//!   lanes; forces on two bodies.
+//! - `geometry`, `fixed`, `planar`, `euler`, `approximate`: a precision is a type: [`F64`], [`F32`], [`Fixed`], in the
+//!   plane [`Planar64`], [`Planar32`]; an orientation is a quaternion or, as in the paper, Euler angles.
 //! - `body`, `rotation`, `lockstep`: one rigid body, and its rotation, alone or in lanes.
 //! - [`random`], [`chain`]: random numbers; signal chains of sensors and actuators.
 //! - `status`, `elements`, `schedule`, [`sources`]: failures; the element laws, one per file; the timing of loads
 //!   and inputs; sines and tables that drive inputs.
-//! - `force_pair`, [`laws`]: forces on two bodies; user-defined laws, each a type that a model lists.
+//! - [`laws`]: user-defined laws, each a type that a model lists.
 //! - [`mod@model`], [`model_spec`], [`state`]: read-only constants of bodies and elements, and their source form; the state
 //!   and its hash.
 //! - `pose`, `sensors`, `forces`, `damping`: points of elements; motion sensors; one force evaluation; dampers as
@@ -133,6 +134,8 @@ mod guards;
 #[doc(hidden)]
 pub mod index;
 pub mod keep;
+#[doc(hidden)]
+pub mod lanes;
 pub mod laws;
 mod lockstep;
 pub mod model;

@@ -7,6 +7,7 @@
 
 use core::marker::PhantomData;
 
+use crate::force_pair::ForcePair;
 use crate::geometry::{Geometry, Named};
 use crate::plane::{Axial, Heading, Plane, Vec2};
 use crate::real::Real;
@@ -31,6 +32,18 @@ pub struct PlanarPose<R> {
     sine: R,
 }
 
+impl<R: Real + Named> Vec2<R> {
+    #[inline(always)]
+    fn abreast(of: impl Fn(usize) -> Self) -> Vec2<R::Abreast> {
+        Vec2::new(R::abreast(|lane| of(lane).x), R::abreast(|lane| of(lane).y))
+    }
+
+    #[inline(always)]
+    fn lane(of: Vec2<R::Abreast>, lane: usize) -> Self {
+        Self::new(R::lane(of.x, lane), R::lane(of.y, lane))
+    }
+}
+
 impl<R: Real + Named> Geometry for Planar<R> {
     type Real = R;
     type Vector = Vec2<R>;
@@ -46,8 +59,34 @@ impl<R: Real + Named> Geometry for Planar<R> {
     type Rest = ();
     type Apart = ();
     type PassSum = R::PassSum<Plane<R>>;
+    type Abreast = Planar<R::Abreast>;
 
     const NAME: &'static str = R::NAME;
+
+    #[inline(always)]
+    fn frames_abreast(of: impl Fn(usize) -> PlanarPose<R>) -> PlanarPose<R::Abreast> {
+        PlanarPose {
+            position: Vec2::abreast(|lane| of(lane).position),
+            cosine: R::abreast(|lane| of(lane).cosine),
+            sine: R::abreast(|lane| of(lane).sine),
+        }
+    }
+    #[inline(always)]
+    fn points_abreast(of: impl Fn(usize) -> Vec2<R>) -> Vec2<R::Abreast> {
+        Vec2::abreast(of)
+    }
+    #[inline(always)]
+    fn numbers_abreast(of: impl Fn(usize) -> R) -> R::Abreast {
+        R::abreast(of)
+    }
+    #[inline(always)]
+    fn force_pair_of(pairs: &ForcePair<Plane<R::Abreast>>, lane: usize) -> ForcePair<Plane<R>> {
+        ForcePair {
+            force: Vec2::lane(pairs.force, lane),
+            torque_a: Axial::new(R::lane(pairs.torque_a.z, lane)),
+            torque_b: Axial::new(R::lane(pairs.torque_b.z, lane)),
+        }
+    }
 
     #[inline(always)]
     fn frame(position: &Vec2<R>, orientation: &Heading<R>) -> PlanarPose<R> {

@@ -6,13 +6,11 @@
 //! instance has failed continues with meaningless values. Laws are compiled for scalar instances only: instances of a
 //! model with laws or driven bodies are stepped one by one.
 
-use dbd_kernel::geometry::Named;
+use dbd_kernel::lanes::{Lanes, Named, Register, Work};
 use dbd_kernel::{Body, Plant, Real, State};
 
 use crate::gather::{self, LanesModel, ModelOf};
 use crate::in_lanes::InLanes;
-use crate::lanes::Lanes;
-use crate::register::{Register, Work};
 
 /// Steps between two checks of a batch.
 const BLOCK: u64 = 64;

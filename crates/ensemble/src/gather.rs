@@ -6,15 +6,13 @@
 use dbd_kernel::elements::input::{Input, InputKind, Knot};
 use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
 use dbd_kernel::geometry::Float;
+use dbd_kernel::lanes::{Lanes, Register};
 use dbd_kernel::schedule::Signal;
 use dbd_kernel::{
     Body, BodyState, Load, PointBushing, PointOnLine, Quaternion, Real as _, Revolute, State,
     TorsionSpring, Tsda, Universal, Vec3,
 };
 use dbd_scene::SceneModel;
-
-use crate::lanes::Lanes;
-use crate::register::Register;
 
 /// The model of one instance.
 pub(crate) type ModelOf<R> = SceneModel<Float<R>>;

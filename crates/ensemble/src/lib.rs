@@ -4,7 +4,6 @@
 //!
 //! Each uses only those before it:
 //!
-//! - `register`, `lanes`: one register of an instruction set, and the number type for the kernel.
 //! - `alike`, `gather`: structural check; conversion of models and states between instances and lanes.
 //! - `in_lanes`, `batch`: schemes that support lanes; as many instances as a register has lanes, stepped together.
 //! - `instructions`, `number`: instruction sets of a machine, and the batches of each precision.
@@ -17,11 +16,9 @@ mod ensemble;
 mod gather;
 mod in_lanes;
 mod instructions;
-mod lanes;
 mod leapfrog;
 mod number;
 mod pace;
-mod register;
 
 pub use alike::Difference;
 pub use batch::PlantOf;

@@ -3,12 +3,11 @@
 //! `(instruction set, plants) => batch`.
 
 use dbd_kernel::Real;
-use dbd_kernel::geometry::Named;
+use dbd_kernel::lanes::{self, Named};
 
 use crate::batch::{Batch, Members, PlantOf};
 use crate::in_lanes::InLanes;
 use crate::instructions::InstructionSet;
-use crate::register;
 
 /// A number that has registers: `f64` and `f32`.
 pub trait Number: Real + Named + sealed::Batches {
@@ -34,15 +33,15 @@ macro_rules! number {
     ($number:ty, $array:ident, $narrow:ident, $wide:ident) => {
         impl Number for $number {
             fn lanes(set: InstructionSet) -> usize {
-                use register::Register as _;
+                use lanes::Register as _;
                 match set {
-                    InstructionSet::Baseline => register::$array::LANES,
+                    InstructionSet::Baseline => lanes::$array::LANES,
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => register::$narrow::LANES,
+                    InstructionSet::Avx2 => lanes::$narrow::LANES,
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => register::$wide::LANES,
+                    InstructionSet::Avx512 => lanes::$wide::LANES,
                     #[cfg(not(target_arch = "x86_64"))]
-                    InstructionSet::Avx2 | InstructionSet::Avx512 => register::$array::LANES,
+                    InstructionSet::Avx2 | InstructionSet::Avx512 => lanes::$array::LANES,
                 }
             }
         }
@@ -54,16 +53,14 @@ macro_rules! number {
                 plants: Vec<PlantOf<Self, S>>,
             ) -> Box<dyn Batch<Self, S>> {
                 match set {
-                    InstructionSet::Baseline => {
-                        Box::new(Members::<register::$array, S>::new(plants))
-                    }
+                    InstructionSet::Baseline => Box::new(Members::<lanes::$array, S>::new(plants)),
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx2 => Box::new(Members::<register::$narrow, S>::new(plants)),
+                    InstructionSet::Avx2 => Box::new(Members::<lanes::$narrow, S>::new(plants)),
                     #[cfg(target_arch = "x86_64")]
-                    InstructionSet::Avx512 => Box::new(Members::<register::$wide, S>::new(plants)),
+                    InstructionSet::Avx512 => Box::new(Members::<lanes::$wide, S>::new(plants)),
                     #[cfg(not(target_arch = "x86_64"))]
                     InstructionSet::Avx2 | InstructionSet::Avx512 => {
-                        Box::new(Members::<register::$array, S>::new(plants))
+                        Box::new(Members::<lanes::$array, S>::new(plants))
                     }
                 }
             }

@@ -33,6 +33,7 @@ pub use velocity::FixedVelocity;
 use crate::elongation::{AtRest, Beside, Beyond, Elongation};
 use crate::fixed::number::{exact_product, single_power, square_of, squared, to_f32, to_f64};
 use crate::fixed::place::{difference, fixed, move_by, nearest, single, sum};
+use crate::force_pair::ForcePair;
 use crate::geometry::{Geometry, Limits};
 use crate::vector::Vec3;
 
@@ -78,6 +79,7 @@ impl Geometry for Fixed {
     type Rest = Rest;
     type Apart = [i64; 3];
     type PassSum = ();
+    type Abreast = Self;
 
     const NAME: &'static str = "fixed";
     const LIMITS: Option<Limits> = Some(LIMITS);
@@ -123,6 +125,22 @@ impl Geometry for Fixed {
             return Elongation { way, more: Some(to_f32::<{ 2 * NEAR }>(more)) };
         }
         far(&d, free_length)
+    }
+    #[inline(always)]
+    fn frames_abreast(of: impl Fn(usize) -> FixedPose) -> FixedPose {
+        of(0)
+    }
+    #[inline(always)]
+    fn points_abreast(of: impl Fn(usize) -> FixedPoint) -> FixedPoint {
+        of(0)
+    }
+    #[inline(always)]
+    fn numbers_abreast(of: impl Fn(usize) -> f32) -> f32 {
+        of(0)
+    }
+    #[inline(always)]
+    fn force_pair_of(pair: &ForcePair<f32>, _: usize) -> ForcePair<f32> {
+        *pair
     }
     const RESTS: bool = true;
     fn find_rests(

@@ -9,6 +9,7 @@
 //! forces of two triples add in the axes of B, and the torque is τ = r1 × (f1 + f2) + (r2 − r1) × f2. Forces and
 //! torques are in world axes; a body's torque is transformed to body axes once, at the end.
 
+mod abreast;
 mod bushing;
 mod directions;
 mod driven;
@@ -24,6 +25,7 @@ mod two_points;
 mod universal;
 
 use crate::body::BodyState;
+use abreast::Abreast;
 pub(crate) use directions::springs;
 pub use force_pair::{
     At, Dampers, DampersLeft, DampersOfJoints, ExplicitDampers, ForcePair, Wrench,
@@ -145,7 +147,12 @@ pub(crate) fn evaluate<P: Geometry, T: Terms<P>, D: Dampers>(
     if MayBe::<P, T>::UNIFORM && in_line {
         in_line::add::<P, T, D>(model, places, (bodies, rests), wrenches);
     } else if T::TSDAS || T::BUSHINGS || T::LINES || T::REVOLUTES || T::UNIVERSALS {
-        for group in model.groups {
+        let mut groups = model.groups.iter();
+        loop {
+            if Abreast::<P, T>::MAY_BE {
+                abreast::add(model, places.frames, D::ACT, &mut groups, wrenches);
+            }
+            let Some(group) = groups.next() else { break };
             if let Some(force_pair) = force_pair::<P, T, D>(model, places, (bodies, rests), group) {
                 apply(wrenches, group.a.row(), group.b.row(), &force_pair);
             }

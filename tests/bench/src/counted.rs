@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use std::hint::black_box;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use dbd_kernel::geometry::Named;
+use dbd_kernel::lanes::{Named, one_abreast};
 use dbd_kernel::real::{Constant, Real};
 use dbd_kernel::space::Space;
 use dbd_kernel::words::{Word, WordSource};
@@ -172,7 +172,11 @@ macro_rules! real {
 real!(f64);
 real!(f32);
 
-impl<R: Named> Named for Counted<R> {
+impl<R: Named> Named for Counted<R>
+where
+    Self: Real,
+{
+    one_abreast!();
     type PassSum<S: Space> = R::PassSum<S>;
     const NAME: &'static str = R::NAME;
 }

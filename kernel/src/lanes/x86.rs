@@ -1,18 +1,16 @@
-//! Registers of x86-64: AVX2 and AVX-512.
+//! Registers of x86-64: SSE2, AVX2 and AVX-512.
 // Operations on masks of bits are safe, those on registers are not; one macro writes both.
 #![allow(unsafe_code, unused_unsafe)]
 
-use std::arch::x86_64::*;
-use std::ops::{BitAnd, BitOr, Not};
+use core::arch::x86_64::*;
+use core::ops::{BitAnd, BitOr, Not};
 
-use dbd_kernel::Real;
-use dbd_kernel::real::Mask;
+use crate::lanes::register::{Register, Work, constants};
+use crate::real::{Mask, Real};
 
-use crate::register::interface::{Register, Work, constants};
-
-// SAFETY of all below: an ensemble of these registers is only made if `InstructionSet::is_there` has found the
-// instructions on this machine, and nothing else uses them. Arrays and registers of the same size have interchangeable
-// bits.
+// SAFETY of all below: every target of this file has SSE2. Whoever uses one of the other registers has found its
+// instructions on the processor, as `dbd_ensemble::InstructionSet` does. Arrays and registers of the same size have
+// interchangeable bits.
 
 macro_rules! register {
     (
@@ -26,12 +24,12 @@ macro_rules! register {
         $(#[$doc])*
         #[derive(Clone, Copy)]
         #[repr(transparent)]
-        pub(crate) struct $name($inner);
+        pub struct $name($inner);
 
         /// A mask per lane.
         #[derive(Clone, Copy)]
         #[repr(transparent)]
-        pub(crate) struct $mask($mask_inner);
+        pub struct $mask($mask_inner);
 
         impl BitAnd for $mask {
             type Output = Self;
@@ -85,13 +83,13 @@ macro_rules! register {
             #[inline(always)]
             const fn of_array(lanes: [$number; $lanes]) -> Self {
                 // SAFETY: see above.
-                Self(unsafe { std::mem::transmute::<[$number; $lanes], $inner>(lanes) })
+                Self(unsafe { core::mem::transmute::<[$number; $lanes], $inner>(lanes) })
             }
 
             #[inline(always)]
             fn to_array(self) -> [$number; $lanes] {
                 // SAFETY: see above.
-                unsafe { std::mem::transmute(self.0) }
+                unsafe { core::mem::transmute(self.0) }
             }
         }
 
@@ -110,7 +108,7 @@ macro_rules! register {
             }
             #[inline(always)]
             fn from_lanes(lanes: impl Fn(usize) -> $number) -> Self {
-                Self::of_array(std::array::from_fn(lanes))
+                Self::of_array(core::array::from_fn(lanes))
             }
             #[inline(always)]
             fn lane(self, lane: usize) -> $number {
@@ -119,7 +117,7 @@ macro_rules! register {
             #[inline(always)]
             fn mask(lanes: impl Fn(usize) -> bool) -> $mask {
                 // SAFETY: see above.
-                $mask(unsafe { $from!($lanes, lanes) })
+                $mask(unsafe { $from!($mask_inner, $lanes, lanes) })
             }
             #[inline(always)]
             fn bits(mask: $mask) -> u32 {
@@ -197,6 +195,29 @@ macro_rules! register {
     };
 }
 
+macro_rules! compare_128_double {
+    (_CMP_EQ_OQ, $a:expr, $b:expr) => {
+        _mm_cmpeq_pd($a, $b)
+    };
+    (_CMP_LT_OQ, $a:expr, $b:expr) => {
+        _mm_cmplt_pd($a, $b)
+    };
+    (_CMP_LE_OQ, $a:expr, $b:expr) => {
+        _mm_cmple_pd($a, $b)
+    };
+}
+macro_rules! compare_128_single {
+    (_CMP_EQ_OQ, $a:expr, $b:expr) => {
+        _mm_cmpeq_ps($a, $b)
+    };
+    (_CMP_LT_OQ, $a:expr, $b:expr) => {
+        _mm_cmplt_ps($a, $b)
+    };
+    (_CMP_LE_OQ, $a:expr, $b:expr) => {
+        _mm_cmple_ps($a, $b)
+    };
+}
+
 macro_rules! compare_256_single {
     ($how:ident, $a:expr, $b:expr) => {
         _mm256_cmp_ps::<$how>($a, $b)
@@ -223,24 +244,48 @@ macro_rules! compare_512_double {
 
 // A mask of as many bits as the number has, for each lane.
 macro_rules! mask_single {
-    ($lanes:literal, $mask:expr) => {{
-        let lanes: [u32; $lanes] = std::array::from_fn(|i| if $mask(i) { u32::MAX } else { 0 });
-        std::mem::transmute::<[u32; $lanes], __m256>(lanes)
+    ($inner:ty, $lanes:literal, $mask:expr) => {{
+        let lanes: [u32; $lanes] = core::array::from_fn(|i| if $mask(i) { u32::MAX } else { 0 });
+        core::mem::transmute::<[u32; $lanes], $inner>(lanes)
     }};
 }
 
 macro_rules! mask_double {
-    ($lanes:literal, $mask:expr) => {{
-        let lanes: [u64; $lanes] = std::array::from_fn(|i| if $mask(i) { u64::MAX } else { 0 });
-        std::mem::transmute::<[u64; $lanes], __m256d>(lanes)
+    ($inner:ty, $lanes:literal, $mask:expr) => {{
+        let lanes: [u64; $lanes] = core::array::from_fn(|i| if $mask(i) { u64::MAX } else { 0 });
+        core::mem::transmute::<[u64; $lanes], $inner>(lanes)
     }};
 }
 
 // A bit for each lane.
 macro_rules! mask_bits {
-    ($lanes:literal, $mask:expr) => {
-        (0..$lanes).fold(0, |bits, lane| bits | (u32::from($mask(lane)) << lane)) as _
+    ($inner:ty, $lanes:literal, $mask:expr) => {
+        (0..$lanes).fold(0, |bits, lane| bits | (u32::from($mask(lane)) << lane)) as $inner
     };
+}
+
+register! {
+    /// Two numbers of double precision.
+    Doubles, f64, 2, __m128d, "sse2", Masks2x64, __m128d,
+    add _mm_add_pd, sub _mm_sub_pd, mul _mm_mul_pd, div _mm_div_pd,
+    sqrt _mm_sqrt_pd, splat _mm_set1_pd,
+    neg |x| _mm_xor_pd(x, _mm_set1_pd(-0.0)), compare compare_128_double,
+    pick |mask, then, otherwise| _mm_or_pd(_mm_and_pd(mask, then), _mm_andnot_pd(mask, otherwise)),
+    and _mm_and_pd, or _mm_or_pd,
+    not |x| _mm_xor_pd(x, _mm_castsi128_pd(_mm_set1_epi32(-1))),
+    bits |x| _mm_movemask_pd(x) as u32, mask mask_double,
+}
+
+register! {
+    /// Four numbers of single precision.
+    Singles, f32, 4, __m128, "sse2", Masks4x32, __m128,
+    add _mm_add_ps, sub _mm_sub_ps, mul _mm_mul_ps, div _mm_div_ps,
+    sqrt _mm_sqrt_ps, splat _mm_set1_ps,
+    neg |x| _mm_xor_ps(x, _mm_set1_ps(-0.0)), compare compare_128_single,
+    pick |mask, then, otherwise| _mm_or_ps(_mm_and_ps(mask, then), _mm_andnot_ps(mask, otherwise)),
+    and _mm_and_ps, or _mm_or_ps,
+    not |x| _mm_xor_ps(x, _mm_castsi128_ps(_mm_set1_epi32(-1))),
+    bits |x| _mm_movemask_ps(x) as u32, mask mask_single,
 }
 
 register! {

@@ -1,35 +1,44 @@
-//! A number of several lanes, which the kernel's laws and schemes use as one number.
+//! A number of several lanes, which laws and schemes use as one number.
 //!
-//! `(lanes, lanes) => lanes`. Decisions in a step become selections, see [`dbd_kernel::Real`]. Operations without a
-//! lane, such as a conversion to `f64`, use the first.
+//! `(lanes, lanes) => lanes`. Decisions in a step become selections, see [`Real`]. Operations without a lane, such as a
+//! conversion to `f64`, use the first. Nothing is fused, so a lane has the bits of the scalar operation.
 
-use std::cmp::Ordering;
-use std::fmt::{Debug, Formatter};
-use std::ops::{Add, Div, Mul, Neg, Sub};
+#[cfg_attr(all(target_arch = "x86_64", target_feature = "sse2"), allow(dead_code))]
+mod array;
+mod named;
+mod register;
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+mod x86;
 
-use dbd_kernel::Real;
-use dbd_kernel::geometry::Named;
-use dbd_kernel::real::{Constant, Mask as _};
-use dbd_kernel::space::Space;
-use dbd_kernel::words::{Word, WordSource};
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+pub use array::{Doubles, Singles};
+pub use named::{Named, one_abreast};
+pub use register::{Register, Work};
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+pub use x86::{Doubles, Doubles256, Doubles512, Singles, Singles256, Singles512};
 
-use crate::register::Register;
+use core::cmp::Ordering;
+use core::fmt::{Debug, Formatter};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::real::{Constant, Mask as _, Real};
+use crate::words::{Word, WordSource};
 
 /// One number per lane of a register.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub(crate) struct Lanes<V>(V);
+pub struct Lanes<V>(V);
 
 impl<V: Register> Lanes<V> {
     /// A number per lane.
     #[inline(always)]
-    pub(crate) fn new(lanes: impl Fn(usize) -> V::Number) -> Self {
+    pub fn new(lanes: impl Fn(usize) -> V::Number) -> Self {
         Self(V::from_lanes(lanes))
     }
 
     /// The number in a lane.
     #[inline(always)]
-    pub(crate) fn lane(self, lane: usize) -> V::Number {
+    pub fn lane(self, lane: usize) -> V::Number {
         self.0.lane(lane)
     }
 
@@ -37,12 +46,12 @@ impl<V: Register> Lanes<V> {
     #[allow(unsafe_code)]
     const fn of(registers: &'static [V]) -> &'static [Self] {
         // SAFETY: the type is transparent.
-        unsafe { std::slice::from_raw_parts(registers.as_ptr().cast(), registers.len()) }
+        unsafe { core::slice::from_raw_parts(registers.as_ptr().cast(), registers.len()) }
     }
 }
 
 impl<V: Register> Debug for Lanes<V> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+    fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
         f.debug_list().entries((0..V::LANES).map(|lane| self.lane(lane))).finish()
     }
 }
@@ -102,11 +111,6 @@ impl<V: Register> Neg for Lanes<V> {
     fn neg(self) -> Self {
         Self(self.0.neg())
     }
-}
-
-impl<V: Register> Named for Lanes<V> {
-    type PassSum<S: Space> = <V::Number as Named>::PassSum<S>;
-    const NAME: &'static str = <V::Number as Named>::NAME;
 }
 
 impl<V: Register> Real for Lanes<V> {

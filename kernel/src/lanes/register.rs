@@ -1,12 +1,14 @@
-//! The interface of a register, and work that uses one.
+//! The interface of a register of an instruction set, and work that uses one.
+//!
+//! `(register, register) => register`, with IEEE 754 operations in every lane.
 
-use dbd_kernel::Real;
-use dbd_kernel::geometry::Named;
-use dbd_kernel::real::Mask;
+use crate::lanes::Named;
+use crate::real::{Mask, Real};
 
-/// A register of numbers. Its operations require its instruction set, which [`crate::InstructionSet::is_there`] checks
-/// first. Within [`Register::enter`] each is an instruction, elsewhere a call.
-pub(crate) trait Register: Copy + Send + Sync + 'static {
+/// A register of numbers. Its operations require its instruction set: whoever makes numbers of a register beyond the
+/// target's baseline finds out first whether the processor has it. Within [`Register::enter`] each is an instruction,
+/// elsewhere a call.
+pub trait Register: Copy + Send + Sync + 'static {
     /// The number in each lane.
     type Number: Real<Mask = bool, Count = i32> + Named;
     /// A mask per lane.
@@ -56,7 +58,7 @@ pub(crate) trait Register: Copy + Send + Sync + 'static {
 }
 
 /// Work with an instruction set.
-pub(crate) trait Work {
+pub trait Work {
     /// Its result.
     type Outcome;
     /// Runs it. Must be inlined with everything that it calls: code compiled separately uses only the baseline

@@ -1,26 +1,24 @@
 //! Registers of any machine: arrays, which the compiler maps to the available ones.
 
-use std::array::from_fn;
-use std::ops::{BitAnd, BitOr, Not};
+use core::array::from_fn;
+use core::ops::{BitAnd, BitOr, Not};
 
-use dbd_kernel::Real;
-use dbd_kernel::real::Mask;
-
-use crate::register::interface::{Register, Work, constants};
+use crate::lanes::register::{Register, Work, constants};
+use crate::real::{Mask, Real};
 
 /// Two numbers of double precision.
-pub(crate) type Doubles = Array<f64, 2>;
+pub type Doubles = Array<f64, 2>;
 /// Four numbers of single precision.
-pub(crate) type Singles = Array<f32, 4>;
+pub type Singles = Array<f32, 4>;
 
 /// `W` numbers.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub(crate) struct Array<T, const W: usize>([T; W]);
+pub struct Array<T, const W: usize>([T; W]);
 
 /// A mask per lane.
 #[derive(Clone, Copy)]
-pub(crate) struct Masks<const W: usize>([bool; W]);
+pub struct Masks<const W: usize>([bool; W]);
 
 impl<const W: usize> BitAnd for Masks<W> {
     type Output = Self;
@@ -121,7 +119,7 @@ macro_rules! array {
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
-                Self(self.0.map(<$number>::sqrt))
+                Self(self.0.map(Real::sqrt))
             }
             #[inline(always)]
             fn equals(self, other: Self) -> Masks<$lanes> {

@@ -1,0 +1,68 @@
+//! What distinguishes the floating-point numbers: names, sums of damper passes, lanes.
+
+use crate::lanes::{Doubles, Lanes, Register, Singles};
+use crate::pass_sum::{PassSum, Sum};
+use crate::real::Real;
+use crate::space::Space;
+
+/// The difference between the floating-point precisions.
+pub trait Named: Sized {
+    /// The name users give: `f64`, `f32`.
+    const NAME: &'static str;
+    /// [`crate::Geometry::PassSum`] of a space of this number.
+    type PassSum<S: Space>: PassSum<S>;
+    /// The number of several lanes in which alike joints of one model are computed together; itself where one after the
+    /// other is as fast.
+    type Abreast: Real + Named;
+
+    /// A number per lane.
+    fn abreast(of: impl Fn(usize) -> Self) -> Self::Abreast;
+    /// The number in a lane.
+    fn lane(of: Self::Abreast, lane: usize) -> Self;
+}
+
+/// [`Named::Abreast`] of a number without lanes, within its implementation.
+#[macro_export]
+macro_rules! one_abreast {
+    () => {
+        type Abreast = Self;
+
+        #[inline(always)]
+        fn abreast(of: impl Fn(usize) -> Self) -> Self {
+            of(0)
+        }
+        #[inline(always)]
+        fn lane(of: Self, _: usize) -> Self {
+            of
+        }
+    };
+}
+pub use one_abreast;
+
+macro_rules! named {
+    ($number:ty, $name:literal, $register:ty, $sum:ty) => {
+        impl Named for $number {
+            type Abreast = Lanes<$register>;
+            type PassSum<S: Space> = $sum;
+            const NAME: &'static str = $name;
+
+            #[inline(always)]
+            fn abreast(of: impl Fn(usize) -> Self) -> Self::Abreast {
+                Lanes::new(of)
+            }
+            #[inline(always)]
+            fn lane(of: Self::Abreast, lane: usize) -> Self {
+                of.lane(lane)
+            }
+        }
+    };
+}
+
+named!(f64, "f64", Doubles, ());
+named!(f32, "f32", Singles, Sum<S>);
+
+impl<V: Register> Named for Lanes<V> {
+    one_abreast!();
+    type PassSum<S: Space> = <V::Number as Named>::PassSum<S>;
+    const NAME: &'static str = <V::Number as Named>::NAME;
+}
