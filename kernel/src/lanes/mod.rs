@@ -21,7 +21,9 @@ use core::cmp::Ordering;
 use core::fmt::{Debug, Formatter};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::pass_sum::Sum;
 use crate::real::{Constant, Mask as _, Real};
+use crate::space::Space;
 use crate::words::{Word, WordSource};
 
 /// One number per lane of a register.
@@ -111,6 +113,34 @@ impl<V: Register> Neg for Lanes<V> {
     fn neg(self) -> Self {
         Self(self.0.neg())
     }
+}
+
+macro_rules! named {
+    ($number:ty, $name:literal, $register:ty, $sum:ty) => {
+        impl Named for $number {
+            type Abreast = Lanes<$register>;
+            type PassSum<S: Space> = $sum;
+            const NAME: &'static str = $name;
+
+            #[inline(always)]
+            fn abreast(of: impl Fn(usize) -> Self) -> Self::Abreast {
+                Lanes::new(of)
+            }
+            #[inline(always)]
+            fn lane(of: Self::Abreast, lane: usize) -> Self {
+                of.lane(lane)
+            }
+        }
+    };
+}
+
+named!(f64, "f64", Doubles, ());
+named!(f32, "f32", Singles, Sum<S>);
+
+impl<V: Register> Named for Lanes<V> {
+    one_abreast!();
+    type PassSum<S: Space> = <V::Number as Named>::PassSum<S>;
+    const NAME: &'static str = <V::Number as Named>::NAME;
 }
 
 impl<V: Register> Real for Lanes<V> {

@@ -1,7 +1,6 @@
 //! What distinguishes the floating-point numbers: names, sums of damper passes, lanes.
 
-use crate::lanes::{Doubles, Lanes, Register, Singles};
-use crate::pass_sum::{PassSum, Sum};
+use crate::pass_sum::PassSum;
 use crate::real::Real;
 use crate::space::Space;
 
@@ -38,31 +37,3 @@ macro_rules! one_abreast {
     };
 }
 pub use one_abreast;
-
-macro_rules! named {
-    ($number:ty, $name:literal, $register:ty, $sum:ty) => {
-        impl Named for $number {
-            type Abreast = Lanes<$register>;
-            type PassSum<S: Space> = $sum;
-            const NAME: &'static str = $name;
-
-            #[inline(always)]
-            fn abreast(of: impl Fn(usize) -> Self) -> Self::Abreast {
-                Lanes::new(of)
-            }
-            #[inline(always)]
-            fn lane(of: Self::Abreast, lane: usize) -> Self {
-                of.lane(lane)
-            }
-        }
-    };
-}
-
-named!(f64, "f64", Doubles, ());
-named!(f32, "f32", Singles, Sum<S>);
-
-impl<V: Register> Named for Lanes<V> {
-    one_abreast!();
-    type PassSum<S: Space> = <V::Number as Named>::PassSum<S>;
-    const NAME: &'static str = <V::Number as Named>::NAME;
-}
