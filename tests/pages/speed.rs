@@ -35,15 +35,19 @@ fn growth() -> f64 {
 }
 
 /// Models whose step on a Cortex-M4F ought to take no more than so many instructions: scene, scheme, precision.
-const STEPS: [([&str; 3], f64); 8] = [
-    (["hexagon", "leapfrog", "f32"], 4_500.0),
-    (["hexagon-bushing", "leapfrog", "f32"], 2_800.0),
-    (["hexagon-planar", "leapfrog", "f32"], 1_100.0),
-    (["3ruu-bushing", "leapfrog", "f32"], 9_000.0),
-    (["double-wishbone", "leapfrog-joint-wise", "f32"], 12_000.0),
+const STEPS: [([&str; 3], f64); 12] = [
+    (["hexagon", "leapfrog", "f32"], 3_400.0),
+    (["four-bar", "leapfrog", "f32"], 2_600.0),
+    (["hexagon-bushing", "leapfrog", "f32"], 2_140.0),
+    (["hexagon-planar", "leapfrog", "f32"], 1_080.0),
+    (["3ruu", "leapfrog", "f32"], 13_000.0),
+    (["double-wishbone", "leapfrog-joint-wise", "f32"], 11_500.0),
     (["cart-pendulum", "leapfrog-joint-wise", "f32"], 6_000.0),
     (["gripper", "leapfrog-joint-wise", "f32"], 24_000.0),
     (["hexagon", "leapfrog", "fixed"], 7_625.0),
+    (["3ruu", "generalized-alpha", "f32"], 45_000.0),
+    (["six-bar", "generalized-alpha", "f32"], 16_000.0),
+    (["six-bar-planar", "generalized-alpha", "f32"], 5_000.0),
 ];
 
 /// Sizes of a plain plant on a Cortex-M4F: what, the most bytes, the columns that make it.

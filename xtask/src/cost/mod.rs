@@ -10,7 +10,6 @@ mod compare;
 pub mod cores;
 mod cycles;
 pub mod elements;
-mod goals;
 pub mod guards;
 mod mix;
 mod row;
@@ -45,7 +44,6 @@ pub fn run(scenes: &[String], compare: bool) -> Result<()> {
         }
     }
     println!("\n{}", table::table(&costs, &mixes, scenes));
-    println!("\n{}", goals::table(&costs));
     if compare {
         let before = std::fs::read_to_string(&file).with_context(|| format!("cannot read {FILE}"));
         return compare::compare(&row::read(&before?)?, &costs);
