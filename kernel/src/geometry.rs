@@ -11,7 +11,7 @@ use core::marker::PhantomData;
 use crate::attitude::Attitude;
 use crate::elongation::{AtRest, Beside, Beyond, Elongation};
 use crate::force_pair::ForcePair;
-pub use crate::lanes::Named;
+use crate::lanes::Named;
 use crate::pass_sum::PassSum;
 use crate::real::Real;
 use crate::space::{Linear as _, Moment, Space, Vector};
@@ -63,7 +63,7 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     /// The sums of a damper pass per body, `()` where impulses are added to velocities directly.
     type PassSum: PassSum<Self::Space>;
 
-    /// The geometry of alike joints of one model that are computed together, one per lane; itself where there is none.
+    /// The geometry of several lanes in which alike joints of one model are computed together; `Self` without lanes.
     type Abreast: Geometry;
 
     /// The name users give: `f64`, `f32`.
@@ -286,22 +286,6 @@ pub trait Geometry: Copy + Debug + Default + PartialEq + Send + 'static {
     fn local_from_f64(local: [f64; 3]) -> Self::Local;
     /// The point in double precision \[m\].
     fn local_to_f64(local: &Self::Local) -> [f64; 3];
-}
-
-impl<R: Real + Named> Vec3<R> {
-    #[inline(always)]
-    fn abreast(of: impl Fn(usize) -> Self) -> Vec3<R::Abreast> {
-        Vec3::new(
-            R::abreast(|lane| of(lane).x),
-            R::abreast(|lane| of(lane).y),
-            R::abreast(|lane| of(lane).z),
-        )
-    }
-
-    #[inline(always)]
-    fn lane(of: Vec3<R::Abreast>, lane: usize) -> Self {
-        Self::new(R::lane(of.x, lane), R::lane(of.y, lane), R::lane(of.z, lane))
-    }
 }
 
 /// Floating-point geometry: everything is stored in the `Real` itself, orientations as `A`.

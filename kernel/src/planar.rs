@@ -8,7 +8,8 @@
 use core::marker::PhantomData;
 
 use crate::force_pair::ForcePair;
-use crate::geometry::{Geometry, Named};
+use crate::geometry::Geometry;
+use crate::lanes::Named;
 use crate::plane::{Axial, Heading, Plane, Vec2};
 use crate::real::Real;
 use crate::space::Linear as _;

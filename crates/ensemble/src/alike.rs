@@ -4,7 +4,8 @@
 
 use dbd_kernel::elements::input::{Input, InputKind};
 use dbd_kernel::elements::source::{Sensor, Source, SourceLaw};
-use dbd_kernel::geometry::{Float, Named};
+use dbd_kernel::geometry::Float;
+use dbd_kernel::lanes::Named;
 use dbd_kernel::{BodyIndex, Load, LoadFrame, Real, TorsionSpring};
 use dbd_scene::SceneModel;
 

@@ -4,7 +4,8 @@
 //! rotor, whose angle is known; [`GOLDEN`] contains them, and a difference is reported. A changed
 //! bit is a changed interface: it needs a reason, as those of the plants do.
 
-use dbd_kernel::geometry::{Float, Named};
+use dbd_kernel::geometry::Float;
+use dbd_kernel::lanes::Named;
 use dbd_kernel::plant::InputError;
 use dbd_kernel::random::Stream;
 use dbd_kernel::readouts::{Reading, Readout};

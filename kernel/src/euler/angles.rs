@@ -3,7 +3,7 @@
 //! `(angles) => matrix, quaternion; (angles, rotation vector) => angles`.
 
 use crate::arctangent::atan2;
-use crate::geometry::Named;
+use crate::lanes::Named;
 use crate::real::Real;
 use crate::vector::{Quaternion, Rotation, Vec3};
 use crate::words::{Word, WordSource, WordVisitor, Words};

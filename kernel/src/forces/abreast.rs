@@ -1,8 +1,8 @@
 //! Alike joints of TSDAs, several at a time, one per lane.
 //!
 //! `(groups, poses) => force pairs, added to the wrenches`: with the bits of one joint after the other, and in their
-//! order. A joint of a spherical or revolute kind on a PC, in a model whose size is known at run time: there the forces of
-//! two in double or four in single precision take little more time than those of one.
+//! order. Only on a PC, in models whose size is known at run time: spherical and revolute joints, in the plane revolute
+//! joints, two at a time in double precision and four in single.
 
 use core::marker::PhantomData;
 use core::slice::Iter;
@@ -297,7 +297,7 @@ mod tests {
                 let model = joints::<P>(triples, arms);
                 let last = if JOINTS % lanes == 1 { JOINTS - 1 } else { JOINTS };
                 assert_eq!(taken(&model, false), last, "{} {triples}", P::NAME);
-                // What another law has in the middle goes one by one: 2 + 4, or 3 + 3, are left.
+                // A joint in the middle with a clearance or with a damper that acts is computed alone.
                 let middle = if lanes == 2 { 2 } else { 3 };
                 let apart: [fn(&mut Group); 2] = [
                     |group| group.clearance = ClearanceIndex(0),

@@ -3,7 +3,7 @@
 //! `(lanes, lanes) => lanes`. Decisions in a step become selections, see [`Real`]. Operations without a lane, such as a
 //! conversion to `f64`, use the first. Nothing is fused, so a lane has the bits of the scalar operation.
 
-#[cfg_attr(all(target_arch = "x86_64", target_feature = "sse2"), allow(dead_code))]
+#[cfg(any(test, not(all(target_arch = "x86_64", target_feature = "sse2"))))]
 mod array;
 mod named;
 mod register;
@@ -260,5 +260,47 @@ impl<V: Register> Real for Lanes<V> {
     #[inline(always)]
     fn abs(self) -> Self {
         Self::pick(self.less_than(Self::ZERO), -self, self)
+    }
+}
+
+#[cfg(all(test, target_arch = "x86_64", target_feature = "sse2"))]
+mod tests {
+    use std::vec::Vec;
+
+    use super::*;
+
+    /// The bits of all that a register makes of two numbers per lane.
+    fn bits<V: Register>([a, b]: [&[V::Number]; 2]) -> (Vec<u64>, Vec<u32>) {
+        let [a, b] = [a, b].map(|numbers| V::from_lanes(|lane| numbers[lane]));
+        let masks = [a.equals(b), a.less_than(b), a.at_most(b), V::mask(|lane| lane % 2 == 0)];
+        let joined = [masks[0] & masks[3], masks[1] | masks[3], !masks[2]];
+        let numbers = [a.add(b), a.sub(b), a.mul(b), a.div(b), a.neg(), a.sqrt()];
+        let picked = masks.map(|mask| V::pick(mask, a, b));
+        let lanes = |number: &V| {
+            (0..V::LANES).map(|lane| number.lane(lane).word().bits()).collect::<Vec<_>>()
+        };
+        let numbers = numbers.iter().chain(&picked).flat_map(lanes).collect();
+        (numbers, masks.into_iter().chain(joined).map(V::bits).collect())
+    }
+
+    #[test]
+    fn registers_have_the_bits_of_arrays() {
+        fn check<A: Register, B: Register<Number = A::Number>>() {
+            assert_eq!(A::LANES, B::LANES);
+            let values = [0.0, -0.0, 1.0, -1.5, 3.7e-30, 2.9e20, f64::INFINITY, 0.1];
+            let rotated = |by| {
+                let mut values = values.map(A::Number::from_f64);
+                values.rotate_left(by);
+                values
+            };
+            for i in 0..values.len() {
+                for k in 0..values.len() {
+                    let pair = [&rotated(i)[..], &rotated(k)[..]];
+                    assert_eq!(bits::<A>(pair), bits::<B>(pair), "{i} {k}");
+                }
+            }
+        }
+        check::<array::Doubles, Doubles>();
+        check::<array::Singles, Singles>();
     }
 }

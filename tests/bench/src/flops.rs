@@ -3,7 +3,8 @@
 //! `(model, scheme, step) => operations per step`: the kernel itself runs on numbers that count. This is what
 //! it does, not the least that could be done.
 
-use dbd_kernel::geometry::{Float, Named};
+use dbd_kernel::geometry::Float;
+use dbd_kernel::lanes::Named;
 use dbd_kernel::{F64, Plant, Real, Scheme};
 use dbd_scene::SceneModel;
 

@@ -3,7 +3,8 @@
 //! `number, vector, moment, rotation => expression`, in the types of the space.
 
 use dbd_kernel::fixed::{FixedPlace, FixedPoint, FixedTurn, FixedVelocity};
-use dbd_kernel::geometry::{Float, Named};
+use dbd_kernel::geometry::Float;
+use dbd_kernel::lanes::Named;
 use dbd_kernel::planar::Planar;
 use dbd_kernel::plane::{Axial, Heading, Vec2};
 use dbd_kernel::space::Space;
